@@ -1,0 +1,33 @@
+// A triangle mesh as a file gives it, before any transform.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace etd {
+
+struct MeshData {
+  std::vector<Point3d> positions;
+  std::vector<Vec3> normals;  // empty or one per vertex; not normalised
+  std::vector<Vec2> uvs;      // empty or one per vertex
+  std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+// What reading a mesh file gave: the mesh, or every problem found ("line 12: vertex index 99 is out of range ...").
+struct MeshResult {
+  std::optional<MeshData> mesh;
+  std::vector<std::string> problems;  // errors; the mesh is absent when there are any
+  std::vector<std::string> notes;     // things left out that may surprise ("vertex colours are not used")
+};
+
+// PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements; polygons become fans.
+// Normals nx ny nz; texture coordinates u v, s t, texture_u texture_v or texture_s texture_t.
+MeshResult read_ply(const std::filesystem::path& path);
+
+}  // namespace etd

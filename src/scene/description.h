@@ -1,0 +1,70 @@
+// What a scene file says, as plain data with source locations and no renderer types: the only thing that the format
+// readers produce and that compile() consumes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/transform.h"
+#include "params/param.h"
+
+namespace etd {
+
+struct TextureDesc {
+  std::string name;
+  bool is_float = false;  // float and spectrum textures have separate names
+  ModelUse use;
+  Transform to_world;
+};
+
+struct MaterialDesc {
+  std::string name;  // empty when the scene gave none
+  ModelUse use;
+};
+
+struct ShapeDesc {
+  ModelUse use;
+  Transform to_world;  // of an object's shape: to the object's space
+  bool reverse_orientation = false;
+  int material = -1;    // index into materials; -1: the default diffuse
+  int area_light = -1;  // index into area_lights; -1: does not emit
+};
+
+struct InstanceDesc {
+  int object = -1;     // index into objects
+  Transform to_world;  // from the object's space
+  SourceLoc loc;
+};
+
+// A group of shapes that instances place in the world; may contain instances of earlier objects.
+struct ObjectDesc {
+  std::string name;
+  std::vector<ShapeDesc> shapes;
+  std::vector<InstanceDesc> instances;
+  SourceLoc loc;
+};
+
+struct LightDesc {
+  ModelUse use;
+  Transform to_world;
+};
+
+struct SceneDescription {
+  std::filesystem::path file;    // of the scene, for messages and metadata
+  std::filesystem::path folder;  // that relative file names in it start from
+
+  // The readers fill these with their format's defaults when the file does not say.
+  ModelUse camera, film, filter, sampler, integrator;
+  Transform camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
+
+  std::vector<TextureDesc> textures;
+  std::vector<MaterialDesc> materials;
+  std::vector<ModelUse> area_lights;
+  std::vector<ShapeDesc> shapes;
+  std::vector<ObjectDesc> objects;
+  std::vector<InstanceDesc> instances;
+  std::vector<LightDesc> lights;
+};
+
+}  // namespace etd
