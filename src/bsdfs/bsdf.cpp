@@ -1,0 +1,39 @@
+// The list of closures and their dispatch. To add one: its header, its name in the list, its constructor line.
+#include "bsdfs/bsdf.h"
+
+#include "bsdfs/lambert.h"
+
+namespace etd {
+
+namespace {
+using Closures = TypeList<Lambert>;
+}  // namespace
+
+template <class T>
+Bsdf::Bsdf(const T& closure) {
+  storage_.store<Closures>(closure);
+}
+template Bsdf::Bsdf(const Lambert&);
+
+Spectrum Bsdf::eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
+  return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.eval_cos(wo, wi, mode, rng); });
+}
+
+float Bsdf::pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides) const {
+  return dispatch<float, Closures>(storage_, [&](const auto& c) { return c.pdf(wo, wi, mode, sides); });
+}
+
+std::optional<BsdfSample> Bsdf::sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides) const {
+  return dispatch<std::optional<BsdfSample>, Closures>(
+      storage_, [&](const auto& c) { return c.sample(wo, u, mode, rng, sides); });
+}
+
+Lobe Bsdf::lobes() const {
+  return dispatch<Lobe, Closures>(storage_, [](const auto& c) { return c.lobes(); });
+}
+
+Spectrum Bsdf::albedo(Vec3 wo) const {
+  return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.albedo(wo); });
+}
+
+}  // namespace etd

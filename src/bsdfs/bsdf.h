@@ -1,0 +1,68 @@
+// The family of closures: how one point of a surface scatters light, in the local shading frame (z is the shading
+// normal; wo and wi point away from the surface). Directions on both sides are valid; a closure that only reflects
+// answers 0 for the rest.
+#pragma once
+
+#include <optional>
+
+#include "core/frame.h"
+#include "core/hash.h"
+#include "core/tagged.h"
+#include "spectrum/spectrum.h"
+
+namespace etd {
+
+// What is transported along the path that is being built: radiance (paths from the camera) or importance (from lights).
+// Refraction scales only radiance (Veach 1997, section 5.2).
+enum class TransportMode : uint8_t { kRadiance, kImportance };
+
+// What a closure's lobes are, as bits. As an argument it selects sides of the surface (kReflection, kTransmission);
+// as part of a sample it says which lobe was taken.
+enum Lobe : uint8_t {
+  kNoLobe = 0,
+  kReflection = 1,
+  kTransmission = 2,
+  kDiffuse = 4,
+  kGlossy = 8,
+  kDelta = 16,
+  kBothSides = kReflection | kTransmission,
+};
+constexpr Lobe operator|(Lobe a, Lobe b) { return static_cast<Lobe>(static_cast<int>(a) | static_cast<int>(b)); }
+
+struct BsdfSample {
+  Vec3 wi;
+  Spectrum weight;  // f(wo, wi) |cos wi| / pdf, per the density that generated wi
+  float pdf = 0;    // per solid angle; of a delta lobe: its discrete probability
+  Lobe lobe = kNoLobe;
+  float eta = 1;  // index on the side of wi over that on the side of wo; 1 for reflection
+
+  bool is_delta() const { return (lobe & kDelta) != 0; }
+  bool is_transmission() const { return (lobe & kTransmission) != 0; }
+};
+
+class Bsdf {
+ public:
+  Bsdf() = default;
+  // Of a closure in the list of bsdf.cpp.
+  template <class T>
+  explicit Bsdf(const T& closure);
+
+  // f(wo, wi) |cos wi|; delta lobes are 0. `rng` serves stochastic closures only.
+  Spectrum eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const;
+  // Solid-angle density with which sample() makes wi among the allowed sides; delta lobes are 0.
+  float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides = kBothSides) const;
+  // u.x, u.y place the direction, u.z chooses among lobes. Nothing when the sample fails (below the surface, absorbed,
+  // or no lobe on the allowed sides): that is an estimate of 0.
+  std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides = kBothSides) const;
+  // Union of the lobes that the closure has.
+  Lobe lobes() const;
+  // Hemispherical-directional reflectance towards wo, or an estimate of it where none is closed: the albedo feature.
+  Spectrum albedo(Vec3 wo) const;
+
+  bool is_delta_only() const { return (lobes() & (kDiffuse | kGlossy)) == 0; }
+
+ private:
+  TaggedStorage<80> storage_;
+};
+
+}  // namespace etd
