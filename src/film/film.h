@@ -1,0 +1,43 @@
+// Accumulates an image as R independent replicates, in doubles, so that its error can be told from their spread
+// (docs/architecture.md, "The estimate").
+#pragma once
+
+#include <vector>
+
+#include "core/bounds.h"
+#include "film/pixel_sample.h"
+
+namespace etd {
+
+struct FilmSettings {
+  int width = 0, height = 0;  // of the full image
+  PixelBounds crop;           // the pixels kept
+  uint32_t replicates = 2;
+  bool features = true;  // albedo, normal, depth, coverage
+};
+
+class Film {
+ public:
+  explicit Film(const FilmSettings& settings);
+  const FilmSettings& settings() const { return settings_; }
+
+  // Adds the sums of one pass to a pixel (full-image coordinates inside the crop). Different pixels may be added
+  // concurrently; sums of one (pixel, replicate) are added in the order of the calls.
+  void add(int x, int y, uint32_t replicate, const PixelSums& sums);
+  // What has been accumulated so far for a pixel and replicate.
+  PixelSums sums(int x, int y, uint32_t replicate) const;
+  // All replicates folded in their order.
+  PixelSums total(int x, int y) const;
+  // Standard error of the pixel's mean R, G, B and Y: from the spread of the replicate means for R >= 4, otherwise from
+  // the second moments of the samples (conservative for low-discrepancy sampling); +inf where one sample was taken.
+  std::array<double, 4> standard_error(int x, int y) const;
+
+  size_t bytes() const;
+  static size_t bytes_for(const FilmSettings& settings);
+
+ private:
+  FilmSettings settings_;
+  std::vector<double> sums_;  // [pixel][replicate][channel]
+};
+
+}  // namespace etd

@@ -1,0 +1,43 @@
+// What one sample of one pixel contributes, and the running sums of many: the currency between integrators and film.
+#pragma once
+
+#include <array>
+
+#include "core/vec.h"
+#include "spectrum/spectrum.h"
+
+namespace etd {
+
+// Rays traced, by what they were for.
+struct RayCounts {
+  uint64_t camera = 0, indirect = 0, shadow = 0;
+  uint64_t total() const { return camera + indirect + shadow; }
+  RayCounts& operator+=(const RayCounts& b) {
+    camera += b.camera, indirect += b.indirect, shadow += b.shadow;
+    return *this;
+  }
+};
+
+// Radiance split by path depth (0: emission, 1: direct, 2 and more: indirect), already divided by the sample's density
+// and weighted by the filter; features at the first non-delta vertex (zero on a miss).
+struct PixelSample {
+  Spectrum emission, direct, indirect;
+  Spectrum albedo;
+  Vec3 normal;         // shading normal in world space on the viewer's side
+  float depth = 0;     // path length to that vertex, in metres
+  float coverage = 0;  // 1 when such a vertex exists
+  RayCounts rays;
+};
+
+// Sums over samples of one pixel in one replicate.
+struct PixelSums {
+  std::array<double, 3> emission{}, direct{}, indirect{};
+  std::array<double, 4> squares{};  // of the samples' total R, G, B and luminance Y
+  std::array<double, 3> albedo{}, normal{};
+  double depth = 0, coverage = 0;
+  double count = 0, rays = 0;
+
+  void add(const PixelSample& s);
+};
+
+}  // namespace etd

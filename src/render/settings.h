@@ -1,0 +1,48 @@
+// Everything a render needs to know beside the scene itself: what the scene file asks for, overridden by the caller.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/bounds.h"
+#include "params/diagnostics.h"
+#include "scene/description.h"
+
+namespace etd {
+
+enum class SamplerKind : uint8_t { kIndependent, kSobol };
+
+struct RenderSettings {
+  int width = 1280, height = 720;
+  PixelBounds crop{0, 0, 1280, 720};
+  uint32_t spp = 16;  // a multiple of replicates
+  uint32_t replicates = 2;
+  uint64_t seed = 0;
+  SamplerKind sampler = SamplerKind::kSobol;
+  ModelUse integrator;  // with the overrides applied
+  bool features = true;
+  int threads = 0;  // 0: all cores
+  int tile_size = 16;
+  std::string filename;  // that the scene's film asks for
+};
+
+// What the caller overrides; absent means as the scene says.
+struct RenderOverrides {
+  std::optional<std::pair<int, int>> size;
+  std::optional<PixelBounds> crop;
+  std::optional<uint32_t> spp, replicates;
+  std::optional<uint64_t> seed;
+  std::optional<int> threads, tile_size;
+  std::optional<bool> features;
+  std::optional<std::string> sampler;
+  // "integrator.mode" = "naive" and the like: a declared parameter of the film, sampler or integrator model.
+  std::vector<std::pair<std::string, std::string>> set;
+};
+
+// Reads film, sampler and integrator of the description, applies the overrides, checks both.
+RenderSettings make_settings(const SceneDescription& description, const RenderOverrides& overrides,
+                             Diagnostics& diagnostics);
+
+}  // namespace etd
