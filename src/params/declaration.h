@@ -94,7 +94,7 @@ class ParamReader {
   // The parameter as written when it was given and is well-formed, otherwise null. For spectra and textures, whose
   // meaning belongs to higher floors.
   const Param* given(std::string_view name) const;
-  // The clamped values of a number-valued parameter that declares `clamp`.
+  // The declaration itself, for its default and range where given() leaves the meaning to the caller.
   const ParamDecl& declaration(std::string_view name) const;
 
   const ModelDecl& decl() const { return decl_; }

@@ -43,7 +43,8 @@ class Diagnostics {
   // "file:line:column: error: message", the source line with a caret, and the hint. Long lines are cut around the
   // caret. Ends with a newline.
   std::string format(const Diagnostic& d) const;
-  // All of them in the order of file and line, errors last said first counted: what a program prints to stderr.
+  // All of them in the order of file, line and column, then one line that counts them ("2 errors, 1 warning") when
+  // there are errors or warnings: what a program prints to stderr.
   std::string format_all() const;
 
  private:

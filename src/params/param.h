@@ -25,6 +25,8 @@ enum class ParamKind : uint8_t {
   kTexture
 };
 std::string_view kind_name(ParamKind kind);
+// Numbers that make one value: 3 for a point3 or an rgb, 2 for a point2, otherwise 1.
+int component_count(ParamKind kind);
 
 // Values by kind: bool and integer in `integers`; float, points, vectors, rgb, blackbody and numeric spectra in
 // `numbers` (all components in a row); string, texture and named spectra in `strings`.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,7 @@ struct SourceLoc {
   int32_t length = 1;
 };
 
-// The texts that locations point into, by index.
+// The texts that locations point into, by index. Names and texts stay where they are when others are added.
 class Sources {
  public:
   // Returns the index to put into SourceLoc::file.
@@ -30,8 +31,9 @@ class Sources {
  private:
   struct Source {
     std::string name, text;
+    std::vector<size_t> line_starts;
   };
-  std::vector<Source> sources_;
+  std::deque<Source> sources_;
 };
 
 }  // namespace etd
