@@ -9,6 +9,9 @@
 
 namespace etd {
 
+// From this many replicates on, the standard error comes from their spread (Student t with R - 1 degrees of freedom).
+inline constexpr uint32_t kReplicatesForSpread = 4;
+
 struct FilmSettings {
   int width = 0, height = 0;  // of the full image
   PixelBounds crop;           // the pixels kept
@@ -28,14 +31,17 @@ class Film {
   PixelSums sums(int x, int y, uint32_t replicate) const;
   // All replicates folded in their order.
   PixelSums total(int x, int y) const;
-  // Standard error of the pixel's mean R, G, B and Y: from the spread of the replicate means for R >= 4, otherwise from
-  // the second moments of the samples (conservative for low-discrepancy sampling); +inf where one sample was taken.
+  // Standard error of the pixel's mean R, G, B and Y: from the spread of the replicate means where four or more have
+  // samples, otherwise from the second moments of the samples (conservative for low-discrepancy sampling); +inf where
+  // fewer than two samples were taken.
   std::array<double, 4> standard_error(int x, int y) const;
 
   size_t bytes() const;
   static size_t bytes_for(const FilmSettings& settings);
 
  private:
+  size_t offset(int x, int y, uint32_t replicate) const;
+
   FilmSettings settings_;
   std::vector<double> sums_;  // [pixel][replicate][channel]
 };

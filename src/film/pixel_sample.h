@@ -29,7 +29,7 @@ struct PixelSample {
   RayCounts rays;
 };
 
-// Sums over samples of one pixel in one replicate.
+// Sums over samples of one pixel, in one replicate or over several.
 struct PixelSums {
   std::array<double, 3> emission{}, direct{}, indirect{};
   std::array<double, 4> squares{};  // of the samples' total R, G, B and luminance Y
@@ -38,6 +38,12 @@ struct PixelSums {
   double count = 0, rays = 0;
 
   void add(const PixelSample& s);
+  PixelSums& operator+=(const PixelSums& b);
+
+  // Means over the samples; zero where none was taken.
+  std::array<double, 3> mean(const std::array<double, 3>& sum) const;
+  // Mean of the samples' total R, G, B and luminance Y.
+  std::array<double, 4> mean_radiance() const;
 };
 
 }  // namespace etd

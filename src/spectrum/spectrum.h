@@ -54,6 +54,7 @@ ETD_FN bool is_finite(const Spectrum& s) {
 }
 // Luminance of linear Rec.709 (ITU-R BT.709-6, 3.3).
 ETD_FN float luminance(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
+ETD_FN double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
 ETD_FN float luminance(const Spectrum& s) { return luminance(s.v[0], s.v[1], s.v[2]); }
 
 }  // namespace etd

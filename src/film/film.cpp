@@ -1,0 +1,93 @@
+#include "film/film.h"
+
+#include <cassert>
+
+#include "film/channels.h"
+
+namespace etd {
+namespace {
+
+size_t pixel_count(const PixelBounds& crop) {
+  return crop.empty() ? 0 : static_cast<size_t>(crop.width()) * static_cast<size_t>(crop.height());
+}
+
+// Var(mean) from the spread of `means` with weights `counts` (sum n): a replicate of n_r samples has variance s^2 /
+// n_r, so sum n_r (m_r - m)^2 / (R - 1) estimates s^2 without bias, for equal counts and others alike.
+std::array<double, 4> spread_of_replicates(const std::vector<std::array<double, 4>>& means,
+                                           const std::vector<double>& counts, const std::array<double, 4>& mean,
+                                           double n) {
+  std::array<double, 4> variance{};
+  for (size_t r = 0; r < means.size(); ++r)
+    for (size_t i = 0; i < 4; ++i) variance[i] += counts[r] * sqr(means[r][i] - mean[i]);
+  for (double& v : variance) v /= static_cast<double>(means.size() - 1) * n;
+  return variance;
+}
+
+}  // namespace
+
+Film::Film(const FilmSettings& settings) : settings_(settings), sums_(bytes_for(settings) / sizeof(double), 0.0) {
+  const PixelBounds& c = settings_.crop;
+  assert(settings_.replicates > 0);
+  assert(c.empty() || (c.x0 >= 0 && c.y0 >= 0 && c.x1 <= settings_.width && c.y1 <= settings_.height));
+  static_cast<void>(c);
+}
+
+size_t Film::offset(int x, int y, uint32_t replicate) const {
+  const PixelBounds& c = settings_.crop;
+  assert(x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1 && replicate < settings_.replicates);
+  const size_t pixel = static_cast<size_t>(y - c.y0) * static_cast<size_t>(c.width()) + static_cast<size_t>(x - c.x0);
+  return (pixel * settings_.replicates + replicate) * film_channels(settings_.features);
+}
+
+void Film::add(int x, int y, uint32_t replicate, const PixelSums& sums) {
+  double* to = sums_.data() + offset(x, y, replicate);
+  for_each_channel(sums, settings_.features, [&to](double v) { *to++ += v; });
+}
+
+PixelSums Film::sums(int x, int y, uint32_t replicate) const {
+  PixelSums result;
+  const double* from = sums_.data() + offset(x, y, replicate);
+  for_each_channel(result, settings_.features, [&from](double& v) { v = *from++; });
+  return result;
+}
+
+PixelSums Film::total(int x, int y) const {
+  PixelSums result = sums(x, y, 0);
+  for (uint32_t r = 1; r < settings_.replicates; ++r) result += sums(x, y, r);
+  return result;
+}
+
+std::array<double, 4> Film::standard_error(int x, int y) const {
+  const PixelSums all = total(x, y);
+  const double n = all.count;
+  if (n < 2) return {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  const std::array<double, 4> mean = all.mean_radiance();
+
+  std::array<double, 4> variance{};  // of the mean
+  std::vector<std::array<double, 4>> means;
+  std::vector<double> counts;
+  if (settings_.replicates >= kReplicatesForSpread) {
+    for (uint32_t r = 0; r < settings_.replicates; ++r) {
+      const PixelSums s = sums(x, y, r);
+      if (s.count == 0) continue;
+      means.push_back(s.mean_radiance());
+      counts.push_back(s.count);
+    }
+  }
+  if (means.size() >= kReplicatesForSpread)
+    variance = spread_of_replicates(means, counts, mean, n);
+  else
+    for (size_t i = 0; i < 4; ++i) variance[i] = (all.squares[i] - n * sqr(mean[i])) / (n * (n - 1));
+
+  std::array<double, 4> error;
+  for (size_t i = 0; i < 4; ++i) error[i] = std::sqrt(std::max(variance[i], 0.0));
+  return error;
+}
+
+size_t Film::bytes() const { return sums_.size() * sizeof(double); }
+
+size_t Film::bytes_for(const FilmSettings& s) {
+  return pixel_count(s.crop) * s.replicates * film_channels(s.features) * sizeof(double);
+}
+
+}  // namespace etd
