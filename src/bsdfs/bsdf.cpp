@@ -1,12 +1,14 @@
 // The list of closures and their dispatch. To add one: its header, its name in the list, its constructor line.
 #include "bsdfs/bsdf.h"
 
+#include "bsdfs/conductor.h"
+#include "bsdfs/dielectric.h"
 #include "bsdfs/lambert.h"
 
 namespace etd {
 
 namespace {
-using Closures = TypeList<Lambert>;
+using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric>;
 }  // namespace
 
 template <class T>
@@ -14,6 +16,9 @@ Bsdf::Bsdf(const T& closure) {
   storage_.store<Closures>(closure);
 }
 template Bsdf::Bsdf(const Lambert&);
+template Bsdf::Bsdf(const SmoothConductor&);
+template Bsdf::Bsdf(const RoughConductor&);
+template Bsdf::Bsdf(const SmoothDielectric&);
 
 Spectrum Bsdf::eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.eval_cos(wo, wi, mode, rng); });
@@ -35,5 +40,11 @@ Lobe Bsdf::lobes() const {
 Spectrum Bsdf::albedo(Vec3 wo) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.albedo(wo); });
 }
+
+BsdfTraits Bsdf::traits() const {
+  return dispatch<BsdfTraits, Closures>(storage_, [](const auto& c) { return c.kTraits; });
+}
+
+uint32_t Bsdf::kind_count() { return static_cast<uint32_t>(Closures::kCount); }
 
 }  // namespace etd

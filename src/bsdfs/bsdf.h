@@ -29,6 +29,14 @@ enum Lobe : uint8_t {
 };
 constexpr Lobe operator|(Lobe a, Lobe b) { return static_cast<Lobe>(static_cast<int>(a) | static_cast<int>(b)); }
 
+// What a closure's type promises, as `static constexpr BsdfTraits kTraits`; verify/battery_bsdf.h tests exactly that.
+struct BsdfTraits {
+  bool delta = false;              // only delta lobes: eval_cos() and pdf() are 0
+  bool stochastic = false;         // eval_cos() is random, pdf() an approximation that serves as a MIS weight
+  bool reciprocal = false;         // f(wi, wo) = eta^2 f(wo, wi) for radiance, eta as in BsdfSample
+  bool energy_conserving = false;  // no more importance leaves than arrives
+};
+
 struct BsdfSample {
   Vec3 wi;
   Spectrum weight;  // f(wo, wi) |cos wi| / pdf, per the density that generated wi
@@ -58,6 +66,11 @@ class Bsdf {
   Lobe lobes() const;
   // Hemispherical-directional reflectance towards wo, or an estimate of it where none is closed: the albedo feature.
   Spectrum albedo(Vec3 wo) const;
+
+  BsdfTraits traits() const;
+  // Which closure of the list this is, below kind_count(): tells whether every one of them is tested.
+  uint32_t kind() const { return storage_.tag; }
+  static uint32_t kind_count();
 
   bool is_delta_only() const { return (lobes() & (kDiffuse | kGlossy)) == 0; }
 

@@ -7,16 +7,18 @@
 namespace etd {
 
 struct Lambert {
+  static constexpr BsdfTraits kTraits{.reciprocal = true, .energy_conserving = true};
   Spectrum reflectance;  // in [0, 1]
 
   Spectrum eval_cos(Vec3 wo, Vec3 wi, TransportMode, HashStream&) const {
     return same_hemisphere(wo, wi) ? reflectance * (kInvPi * std::abs(wi.z)) : Spectrum();
   }
   float pdf(Vec3 wo, Vec3 wi, TransportMode, Lobe sides) const {
-    return (sides & kReflection) && same_hemisphere(wo, wi) ? pdf_hemisphere_cosine(std::abs(wi.z)) : 0.0f;
+    if (!(sides & kReflection) || is_black(reflectance) || !same_hemisphere(wo, wi)) return 0.0f;
+    return pdf_hemisphere_cosine(std::abs(wi.z));
   }
   std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode, HashStream&, Lobe sides) const {
-    if (!(sides & kReflection) || is_black(reflectance)) return {};
+    if (!(sides & kReflection) || is_black(reflectance) || wo.z == 0.0f) return {};
     Vec3 wi = sample_hemisphere_cosine({u.x, u.y});
     if (wi.z == 0.0f) return {};
     if (wo.z < 0.0f) wi.z = -wi.z;

@@ -1,0 +1,67 @@
+#include "bsdfs/examples.h"
+
+#include <vector>
+
+#include "bsdfs/conductor.h"
+#include "bsdfs/dielectric.h"
+#include "bsdfs/lambert.h"
+
+namespace etd {
+
+namespace {
+
+// Relative index of two metals near 630, 530 and 470 nm, rounded from the tables of Johnson and Christy (1972, copper)
+// and Rakic (1995, aluminium).
+struct Metal {
+  const char* name;
+  Spectrum eta, k;
+};
+
+std::vector<BsdfExample> make_examples() {
+  const Metal copper{"copper", Spectrum::rgb(0.21f, 1.04f, 1.15f), Spectrum::rgb(3.45f, 2.59f, 2.50f)};
+  const Metal aluminium{"aluminium", Spectrum::rgb(1.41f, 0.91f, 0.69f), Spectrum::rgb(7.59f, 6.42f, 5.68f)};
+  const Metal mirror{"mirror", Spectrum(0.0f), Spectrum(0.0f)};
+
+  std::vector<BsdfExample> list{
+      {"lambert(white)", Bsdf(Lambert{Spectrum(1.0f)}), true},
+      {"lambert(0.5)", Bsdf(Lambert{Spectrum(0.5f)})},
+      {"lambert(red)", Bsdf(Lambert{Spectrum::rgb(0.8f, 0.1f, 0.0f)})},
+      {"lambert(black)", Bsdf(Lambert{Spectrum(0.0f)})},
+      {"smooth_conductor(mirror)", Bsdf(SmoothConductor{mirror.eta, mirror.k}), true},
+      {"smooth_conductor(copper)", Bsdf(SmoothConductor{copper.eta, copper.k})},
+      {"smooth_conductor(aluminium)", Bsdf(SmoothConductor{aluminium.eta, aluminium.k})},
+  };
+
+  const auto rough = [&list](const Metal& m, std::string alpha, float ax, float ay) {
+    list.push_back(
+        {std::string("rough_conductor(") + m.name + ", " + alpha + ")", Bsdf(RoughConductor{m.eta, m.k, {ax, ay}})});
+  };
+  rough(mirror, "0.5", 0.5f, 0.5f);
+  rough(copper, "1", 1.0f, 1.0f);
+  rough(copper, "0.5", 0.5f, 0.5f);
+  rough(aluminium, "0.25", 0.25f, 0.25f);
+  rough(aluminium, "0.1", 0.1f, 0.1f);
+  rough(copper, "0.01", 0.01f, 0.01f);
+  rough(copper, "0.001", 0.001f, 0.001f);
+  rough(copper, "0.1 x 0.6", 0.1f, 0.6f);
+  rough(aluminium, "1 x 0.05", 1.0f, 0.05f);
+  rough(copper, "0.0001 x 0.3", 0.0001f, 0.3f);
+
+  const auto glass = [&list](std::string name, float eta) {
+    list.push_back({"smooth_dielectric(" + name + ")", Bsdf(SmoothDielectric{eta}), true});
+  };
+  glass("1.5", 1.5f);
+  glass("1/1.5", 1.0f / 1.5f);
+  glass("2.42", 2.42f);
+  glass("1", 1.0f);
+  return list;
+}
+
+}  // namespace
+
+std::span<const BsdfExample> bsdf_examples() {
+  static const std::vector<BsdfExample> examples = make_examples();
+  return examples;
+}
+
+}  // namespace etd
