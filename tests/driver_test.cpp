@@ -1,0 +1,205 @@
+#include "render/driver.h"
+
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "noise_integrator.h"
+
+namespace etd {
+namespace {
+
+const FilmSettings kFilm{.width = 40, .height = 30, .crop = {0, 0, 40, 30}, .replicates = 2};
+
+Film render_noise(const FilmSettings& settings, int threads, int tile, uint32_t spp = 12) {
+  Film film(settings);
+  NoiseIntegrator integrator(settings, tile);
+  RenderObserver nobody;
+  render(integrator, film, {spp, threads}, nobody);
+  return film;
+}
+
+void expect_same_bits(const Film& a, const Film& b, const PixelBounds& where) {
+  for (int y = where.y0; y < where.y1; ++y)
+    for (int x = where.x0; x < where.x1; ++x) {
+      const PixelSums p = a.total(x, y), q = b.total(x, y);
+      ASSERT_EQ(p.emission, q.emission) << x << ' ' << y;
+      ASSERT_EQ(p.direct, q.direct) << x << ' ' << y;
+      ASSERT_EQ(p.indirect, q.indirect) << x << ' ' << y;
+      ASSERT_EQ(p.squares, q.squares) << x << ' ' << y;
+      ASSERT_EQ(p.count, q.count) << x << ' ' << y;
+    }
+}
+
+TEST(PassSchedule, CoversEverySampleOnceInPassesThatDependOnTheIndexAlone) {
+  const std::vector<Pass> longest = pass_schedule(100);
+  EXPECT_EQ(longest[0].end, 1u);
+  EXPECT_EQ(longest[1].end, 2u);
+  EXPECT_EQ(longest[2].end, 4u);
+  EXPECT_EQ(longest[3].end, 8u);
+  EXPECT_EQ(longest[4].end, 16u);
+  EXPECT_EQ(longest[5].end, 32u);
+  EXPECT_EQ(longest[6].end, 48u);
+  for (uint32_t n = 0; n <= 100; ++n) {
+    uint32_t next = 0;
+    for (const Pass& pass : pass_schedule(n)) {
+      EXPECT_EQ(pass.begin, next);
+      EXPECT_EQ(pass.begin, longest[pass.index].begin);
+      EXPECT_EQ(pass.end, std::min(n, longest[pass.index].end));
+      next = pass.end;
+    }
+    EXPECT_EQ(next, n);
+  }
+}
+
+TEST(Driver, BitsDoNotDependOnThreadsTilesOrCrop) {
+  const Film reference = render_noise(kFilm, 1, 16);
+  expect_same_bits(reference, render_noise(kFilm, 2, 16), kFilm.crop);
+  expect_same_bits(reference, render_noise(kFilm, 5, 16), kFilm.crop);
+  expect_same_bits(reference, render_noise(kFilm, 2, 7), kFilm.crop);
+  FilmSettings part = kFilm;
+  part.crop = {5, 3, 21, 29};
+  expect_same_bits(reference, render_noise(part, 2, 4), part.crop);
+}
+
+TEST(Driver, CountsAndEstimatesTheError) {
+  for (uint32_t replicates : {1u, 2u, 8u}) {
+    FilmSettings settings = kFilm;
+    settings.replicates = replicates;
+    Film film(settings);
+    NoiseIntegrator integrator(settings);
+    RenderObserver nobody;
+    const RenderResult result = render(integrator, film, {64, 0}, nobody);
+    EXPECT_EQ(result.spp, 64u);
+    EXPECT_FALSE(result.interrupted);
+    EXPECT_EQ(result.rays.camera, 40u * 30u * 64u);
+    EXPECT_EQ(result.rays.indirect, 2u * result.rays.camera);
+    EXPECT_EQ(result.rays.shadow, 3u * result.rays.camera);
+    EXPECT_EQ(film.total(3, 4).count, 64.0);
+    // Relative variance of a pixel v = 1/(3 * 64), in the measure's mean over pixels of means m = 1 ... 40.
+    double expected = 0, mean = 20.5;
+    for (int m = 1; m <= 40; ++m) expected += m * m / (3.0 * 64.0) / (m * m + 0.01 * mean * mean) / 40;
+    EXPECT_NEAR(result.error, std::sqrt(expected), 0.04 * std::sqrt(expected)) << replicates;
+    EXPECT_EQ(estimated_error(film, 2), result.error);
+  }
+}
+
+TEST(Driver, ErrorIsInfiniteAfterOneSampleAndZeroForABlackImage) {
+  FilmSettings settings = kFilm;
+  settings.replicates = 1;
+  EXPECT_EQ(estimated_error(render_noise(settings, 1, 16, 1)), HUGE_VAL);
+  Film black(settings);
+  PixelSums sums;
+  sums.add({}), sums.add({});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) black.add(x, y, 0, sums);
+  EXPECT_EQ(estimated_error(black), 0.0);
+}
+
+class Recorder : public RenderObserver {
+ public:
+  explicit Recorder(std::atomic<bool>& stop, double stop_at) : stop_(stop), stop_at_(stop_at) {}
+  void on_progress(const RenderProgress& p) override {
+    const std::lock_guard lock(mutex_);
+    highest = std::max(highest, p.spp_done);
+    if (p.spp_done >= stop_at_) stop_ = true;
+  }
+  void on_pass_end(const RenderProgress& p) override { pass_ends.push_back(p.spp_done); }
+  double highest = 0;
+  std::vector<double> pass_ends;
+
+ private:
+  std::mutex mutex_;
+  std::atomic<bool>& stop_;
+  double stop_at_;
+};
+
+TEST(Driver, ReportsProgressInsideAndAfterPasses) {
+  std::atomic<bool> stop{false};
+  Recorder recorder(stop, 1e9);
+  Film film(kFilm);
+  NoiseIntegrator integrator(kFilm);
+  render(integrator, film, {12, 2}, recorder, &stop);
+  EXPECT_EQ(recorder.highest, 12.0);
+  EXPECT_EQ(recorder.pass_ends, (std::vector<double>{2, 4, 8, 12}));
+}
+
+TEST(Driver, StoppingFinishesRunningItemsAndLeavesAValidEstimate) {
+  std::atomic<bool> stop{false};
+  Recorder recorder(stop, 5.0);
+  Film film(kFilm);
+  NoiseIntegrator integrator(kFilm, 4);
+  const RenderResult result = render(integrator, film, {1000, 2}, recorder, &stop);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.spp, 4u);
+  EXPECT_TRUE(std::isfinite(result.error));
+  uint64_t samples = 0;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const double count = film.total(x, y).count;
+      EXPECT_TRUE(count == 4.0 || count == 8.0) << count;
+      EXPECT_EQ(film.sums(x, y, 0).count, film.sums(x, y, 1).count);
+      samples += static_cast<uint64_t>(count);
+    }
+  EXPECT_EQ(samples, result.rays.camera);
+  EXPECT_LT(samples, 40u * 30u * 8u);
+}
+
+TEST(Driver, StoppedBeforeTheFirstItemGivesABlackImageOfInfiniteError) {
+  std::atomic<bool> stop{true};
+  RenderObserver nobody;
+  Film film(kFilm);
+  NoiseIntegrator integrator(kFilm);
+  const RenderResult result = render(integrator, film, {4, 2}, nobody, &stop);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.rays.total(), 0u);
+  EXPECT_EQ(result.error, HUGE_VAL);
+}
+
+// Notes in which floating-point mode and on how many threads its items run.
+class Probe : public Integrator {
+ public:
+  IntegratorTraits traits() const override { return {}; }
+  size_t work_items(const Pass&) const override { return 64; }
+  void render(const Pass&, size_t item, Film&, RayCounts&) const override {
+    if (item == fail_at) throw std::runtime_error("item failed");
+    if ((_mm_getcsr() & 0x8040) != 0x8040) ++without_flush;
+    const int now = ++running;
+    for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --running;
+  }
+  size_t fail_at = 1000;
+  mutable std::atomic<int> without_flush{0}, running{0}, most{0};
+};
+
+TEST(Driver, ItemsFlushDenormalsAndUseTheThreadsAskedFor) {
+  const unsigned mode = _mm_getcsr();
+  for (int threads : {1, 2, 4}) {
+    Probe probe;
+    RenderObserver nobody;
+    Film film(kFilm);
+    render(probe, film, {2, threads}, nobody);
+    EXPECT_EQ(probe.without_flush, 0);
+    EXPECT_LE(probe.most, threads);
+    if (threads == 1) {
+      EXPECT_EQ(probe.most, 1);
+    }
+  }
+  EXPECT_EQ(_mm_getcsr() & 0x8040, mode & 0x8040);
+}
+
+TEST(Driver, ExceptionsOfAnIntegratorPassThrough) {
+  Probe probe;
+  probe.fail_at = 40;
+  RenderObserver nobody;
+  Film film(kFilm);
+  EXPECT_THROW(render(probe, film, {2, 2}, nobody), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace etd
