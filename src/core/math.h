@@ -30,6 +30,20 @@ ETD_FN uint32_t float_bits(float f) {
   return u;
 }
 
+ETD_FN float float_from_bits(uint32_t u) {
+  float f;
+  std::memcpy(&f, &u, sizeof f);
+  return f;
+}
+
+// The neighbouring float above or below x; infinities and NaN stay as they are.
+ETD_FN float next_up(float x) {
+  if (!(x < kInfinity)) return x;
+  if (x == 0.0f) return float_from_bits(1);
+  return float_from_bits(x > 0.0f ? float_bits(x) + 1 : float_bits(x) - 1);
+}
+ETD_FN float next_down(float x) { return -next_up(-x); }
+
 // Maps 32 random bits to a float in [0, 1).
 ETD_FN float unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 

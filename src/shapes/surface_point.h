@@ -7,16 +7,23 @@ namespace etd {
 
 struct SurfacePoint {
   Point3 p;           // in the recentred world
-  float p_error = 0;  // how far along the normal a ray origin must move to be safely off the surface; same units as p
+  float p_error = 0;  // how far along ng a ray origin must move to be safely off the surface; same units as p
   Vec3 ng, ns;        // unit geometric and shading normal, ng on the side of ns
   Vec2 uv;
-  Vec3 dpdu;  // along growing u, not normalised; zero when the parametrisation is degenerate
+  Vec3 dpdu;  // along growing u, not normalised; zero where the parametrisation has none (poles, zero area)
 };
 
-// The origin of a ray that leaves `s` towards w: p moved off the surface to w's side of ng, rounded away from it.
+// The origin of a ray that leaves `s` towards w: p moved by p_error along ng to w's side, every coordinate then rounded
+// one step further in the direction of the move, so that rounding cannot take any of the distance back (the idea of
+// Pharr, Jakob and Humphreys 2023, section 6.8.6).
 ETD_FN Point3 offset_origin(const SurfacePoint& s, Vec3 w) {
   const Vec3 shift = s.ng * (dot(w, s.ng) >= 0.0f ? s.p_error : -s.p_error);
-  return s.p + shift;
+  Point3 o = s.p + shift;
+  for (int i = 0; i < 3; ++i) {
+    if (shift[i] > 0.0f) o[i] = next_up(o[i]);
+    if (shift[i] < 0.0f) o[i] = next_down(o[i]);
+  }
+  return o;
 }
 
 }  // namespace etd

@@ -1,0 +1,127 @@
+#include "shapes/triangle.h"
+
+#include "core/warp.h"
+
+namespace etd {
+namespace {
+
+constexpr double kUnit = 0x1p-24;  // largest relative error of rounding to float
+constexpr double kEdgeDistance = 0x1p-20;
+
+// Length, shape and normal of a triangle, in double.
+struct Face {
+  Point3d p[3];
+  Vec3d normal;      // (p1 - p0) x (p2 - p0)
+  double area2;      // its length, twice the area
+  double longest;    // edge
+  double condition;  // product of the two shorter edges over area2, at least 1
+
+  Face(const Mesh& mesh, uint32_t triangle) {
+    const auto& index = mesh.triangles[triangle];
+    for (int i = 0; i < 3; ++i) p[i] = to_double(mesh.positions[index[i]]);
+    const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
+    normal = cross(a, b);
+    area2 = length(normal);
+    const double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+    const double longest2 = std::max(aa, std::max(bb, cc));
+    longest = std::sqrt(longest2);
+    const double shorter2 = longest2 == aa ? bb * cc : (longest2 == bb ? aa * cc : aa * bb);
+    condition = area2 > 0.0 ? std::sqrt(shorter2) / area2 : 1.0;
+  }
+
+  // How far from the plane a ray origin near the point p (with normal n) must be for the ray not to meet the triangle
+  // again. With u = 2^-24, L the longest edge, and every vertex within L of the origin, the errors along the normal are
+  //   - u |n|.|p|  from rounding p to float,
+  //   - u L        from Embree's rounding of the vertices relative to the origin,
+  //   - 4 u k L    from its normal, a cross product of two rounded edges e, f: |dN| <= 4 u |e||f| = 4 u k |N|, where
+  //                k = |e||f| / |N| for the two shorter edges, which its stable_triangle_normal prefers,
+  //   - 3 u L      from the dot product of a vertex with that normal.
+  // As k >= 1, u (|n|.|p| + 8 k L) covers them. Beyond k = 64 (a sliver of height below L/256) the bound would push
+  // origins across neighbouring geometry; there we accept that a sliver may shadow itself.
+  double error(Point3d at, Vec3d n) const {
+    const Vec3d size{std::abs(at.x), std::abs(at.y), std::abs(at.z)};
+    return kUnit * (dot(abs(n), size) + 8.0 * std::min(condition, 64.0) * longest);
+  }
+
+  // Smallest barycentric that keeps a point 4 * error from the edges; at most 1/8 for triangles that are no larger than
+  // their own error.
+  double edge_distance(double error) const {
+    const double wanted = 4.0 * error * longest / area2;
+    return std::max(kEdgeDistance, wanted < 0.125 ? wanted : 0.125);
+  }
+};
+
+Point3d blend(const Face& f, double b0, double b1, double b2) {
+  return {b0 * f.p[0].x + b1 * f.p[1].x + b2 * f.p[2].x, b0 * f.p[0].y + b1 * f.p[1].y + b2 * f.p[2].y,
+          b0 * f.p[0].z + b1 * f.p[1].z + b2 * f.p[2].z};
+}
+
+// Interpolated vertex normal; a zero vertex normal stands for the face's.
+Vec3 blend_normals(const Mesh& mesh, const std::array<uint32_t, 3>& index, Vec3 face, Vec3 b) {
+  Vec3 sum;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 n = mesh.normals[index[i]];
+    sum += (n == Vec3{} ? face : n) * b[i];
+  }
+  const float l = length(sum);
+  return l > 0.0f && std::isfinite(l) ? sum * (1.0f / l) : face;
+}
+
+// uv and dp/du. Solves (p1 - p0, p2 - p0) = (dpdu, dpdv) (uv1 - uv0, uv2 - uv0); where the uvs span no area, dp/du is
+// that of the default parametrisation.
+void set_parametrisation(const Mesh& mesh, const std::array<uint32_t, 3>& index, const Face& f, Vec3 b,
+                         SurfacePoint& s) {
+  const Vec3d e1 = f.p[1] - f.p[0], e2 = f.p[2] - f.p[0];
+  s.dpdu = to_float(e1);
+  if (mesh.uvs.empty()) {
+    s.uv = {b.y + b.z, b.z};
+    return;
+  }
+  const Vec2 uv0 = mesh.uvs[index[0]], uv1 = mesh.uvs[index[1]], uv2 = mesh.uvs[index[2]];
+  s.uv = {b.x * uv0.x + b.y * uv1.x + b.z * uv2.x, b.x * uv0.y + b.y * uv1.y + b.z * uv2.y};
+  const double u1 = double(uv1.x) - uv0.x, v1 = double(uv1.y) - uv0.y;
+  const double u2 = double(uv2.x) - uv0.x, v2 = double(uv2.y) - uv0.y;
+  const double det = u1 * v2 - u2 * v1;
+  if (det == 0.0) return;
+  const Vec3 dpdu = to_float((e1 * v2 - e2 * v1) * (1.0 / det));
+  if (is_finite(dpdu) && !(dpdu == Vec3{})) s.dpdu = dpdu;
+}
+
+}  // namespace
+
+SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float margin) {
+  const auto& index = mesh.triangles[triangle];
+  const Face f(mesh, triangle);
+  const Vec3d n = f.area2 > 0.0 ? f.normal * (1.0 / f.area2) : Vec3d{0, 0, 1};
+
+  const double raw1 = b1, raw2 = b2, raw0 = 1.0 - raw1 - raw2;
+  const double nearest = f.edge_distance(f.error(blend(f, raw0, raw1, raw2), n) + margin);
+  double c0 = std::max(raw0, nearest), c1 = std::max(raw1, nearest), c2 = std::max(raw2, nearest);
+  const double scale = 1.0 / (c0 + c1 + c2);
+  c0 *= scale, c1 *= scale, c2 *= scale;
+  const Vec3 b = to_float(Vec3d{c0, c1, c2});
+
+  SurfacePoint s;
+  const Point3d p = blend(f, c0, c1, c2);
+  s.p = to_float(p);
+  s.p_error = next_up(static_cast<float>(f.error(p, n)));
+  s.ng = to_float(mesh.flip_ng ? -n : n);
+  s.ns = s.ng;
+  if (!mesh.normals.empty()) {
+    s.ns = blend_normals(mesh, index, s.ng, b);
+    s.ng = face_forward(s.ng, s.ns);
+  }
+  set_parametrisation(mesh, index, f, b, s);
+  return s;
+}
+
+float triangle_area(const Mesh& mesh, uint32_t triangle) {
+  return static_cast<float>(0.5 * Face(mesh, triangle).area2);
+}
+
+SurfacePoint sample_triangle(const Mesh& mesh, uint32_t triangle, Vec2 u) {
+  const Vec2 b = sample_triangle_uniform(u);
+  return triangle_point(mesh, triangle, b.y, std::max(0.0f, 1.0f - b.x - b.y));
+}
+
+}  // namespace etd
