@@ -8,11 +8,10 @@
 
 #include "core/bounds.h"
 #include "params/diagnostics.h"
+#include "samplers/sampler.h"
 #include "scene/description.h"
 
 namespace etd {
-
-enum class SamplerKind : uint8_t { kIndependent, kSobol };
 
 struct RenderSettings {
   int width = 1280, height = 720;

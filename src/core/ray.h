@@ -1,0 +1,15 @@
+// A ray: what cameras make and accelerators trace.
+#pragma once
+
+#include "core/vec.h"
+
+namespace etd {
+
+struct Ray {
+  Point3 o;
+  Vec3 d;  // need not be unit length
+  float t_max = kInfinity;
+  float time = 0;  // seconds within the shutter
+};
+
+}  // namespace etd
