@@ -1,0 +1,198 @@
+#include "formats/pbrt/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "formats/pbrt/tokenizer.h"
+#include "scene/registry.h"
+
+namespace etd::pbrt {
+
+namespace {
+
+// Names that pbrt-v3 had, and what to write now.
+struct OldName {
+  Family family;
+  std::string_view old_name, hint;
+};
+constexpr std::array<OldName, 23> kOldNames = {
+    {{Family::kMaterial, "matte", "write \"diffuse\", and \"reflectance\" for \"Kd\""},
+     {Family::kMaterial, "plastic", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
+     {Family::kMaterial, "substrate", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
+     {Family::kMaterial, "uber", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
+     {Family::kMaterial, "metal", "write \"conductor\""},
+     {Family::kMaterial, "mirror", "write \"conductor\" with \"rgb reflectance\" for \"Kr\""},
+     {Family::kMaterial, "glass", "write \"dielectric\""},
+     {Family::kMaterial, "translucent", "write \"diffusetransmission\""},
+     {Family::kMaterial, "kdsubsurface", "write \"subsurface\""},
+     {Family::kMaterial, "fourier", "pbrt-v4 has \"measured\" instead"},
+     {Family::kMaterial, "disney", "pbrt-v4 has \"coateddiffuse\" and \"coatedconductor\" instead"},
+     {Family::kShape, "cone", "pbrt-v4 has none; write a mesh"},
+     {Family::kShape, "paraboloid", "pbrt-v4 has none; write a mesh"},
+     {Family::kShape, "hyperboloid", "pbrt-v4 has none; write a mesh"},
+     {Family::kShape, "heightfield", "pbrt-v4 has none; write a mesh"},
+     {Family::kShape, "heightfield2", "pbrt-v4 has none; write a mesh"},
+     {Family::kShape, "nurbs", "pbrt-v4 has none; write a mesh"},
+     {Family::kFilm, "image", "write \"rgb\""},
+     {Family::kCamera, "environment", "write \"spherical\""},
+     {Family::kLight, "exinfinite", "write \"infinite\""},
+     {Family::kAreaLight, "area", "write \"diffuse\""},
+     {Family::kTexture, "uv", "pbrt-v4 has none"},
+     {Family::kTexture, "checker", "write \"checkerboard\""}}};
+
+const UnsupportedModel* find_unsupported(Family family, std::string_view name) {
+  for (const UnsupportedModel& m : unsupported_models())
+    if (m.family == family && m.name == name) return &m;
+  return nullptr;
+}
+
+const UnsupportedParam* find_unsupported(Family family, std::string_view model, std::string_view param) {
+  for (const UnsupportedParam& p : unsupported_params())
+    if (p.family == family && p.name == param && (p.model.empty() || p.model == model)) return &p;
+  return nullptr;
+}
+
+std::vector<std::string_view> known_names(Family family) {
+  std::vector<std::string_view> names;
+  for (const ModelDecl* m : models(family)) names.push_back(m->name);
+  for (const UnsupportedModel& m : unsupported_models())
+    if (m.family == family && !find_model(family, m.name)) names.push_back(m.name);
+  return names;
+}
+
+// A model of the family that can stand in for one that nobody knows; empty: nothing can.
+std::string_view neutral_model(Family family) {
+  switch (family) {
+    case Family::kMaterial:
+      return "diffuse";
+    case Family::kTexture:
+      return "constant";
+    case Family::kCamera:
+      return "perspective";
+    case Family::kFilter:
+      return "gaussian";
+    case Family::kFilm:
+      return "rgb";
+    default:
+      return {};
+  }
+}
+
+std::optional<ModelUse> report_unknown(Family family, const ModelUse& use, Diagnostics& diagnostics) {
+  const std::vector<std::string_view> names = known_names(family);
+  std::string hint;
+  for (const OldName& old : kOldNames)
+    if (old.family == family && old.old_name == use.model)
+      hint = fmt::format("\"{}\" is of pbrt-v3: {}\n", use.model, old.hint);
+  if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
+    hint = fmt::format("did you mean \"{}\"? ", near);
+  diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
+                    hint + fmt::format("valid: {}", fmt::join(names, ", ")));
+  const std::string_view neutral = neutral_model(family);
+  if (neutral.empty()) return {};
+  return ModelUse{std::string(neutral), {}, use.loc};
+}
+
+// Whether the values of the parameter are exactly the one number, word or string.
+bool has_value(const Param& param, std::string_view text) {
+  if (param.strings.size() == 1 && param.kind == ParamKind::kString) return param.strings[0] == text;
+  const std::optional<double> number = parse_number(text);
+  if (!number || param.numbers.size() + param.integers.size() == 0 || !param.strings.empty()) return false;
+  return std::all_of(param.numbers.begin(), param.numbers.end(), [&](double x) { return x == *number; }) &&
+         std::all_of(param.integers.begin(), param.integers.end(), [&](int32_t x) { return x == *number; });
+}
+
+// Four corners in the order (0,0) (1,0) (0,1) (1,1) become two triangles.
+void split_patches(ModelUse& use) {
+  for (Param& p : use.params) {
+    if (p.name != "indices" || p.integers.size() % 4 != 0) continue;
+    std::vector<int32_t> triangles;
+    for (size_t i = 0; i < p.integers.size(); i += 4)
+      for (const size_t corner : {0, 1, 3, 0, 3, 2}) triangles.push_back(p.integers[i + corner]);
+    p.integers = std::move(triangles);
+    return;
+  }
+  Param single;
+  single.name = "indices";
+  single.kind = ParamKind::kInteger;
+  single.integers = {0, 1, 3, 0, 3, 2};
+  single.loc = single.value_loc = use.loc;
+  if (!use.find("indices")) use.params.push_back(std::move(single));
+}
+
+ModelUse substitute(const UnsupportedModel& model, ModelUse use) {
+  ModelUse stand_in{std::string(model.stand_in), {}, use.loc};
+  for (Param& p : use.params)
+    for (const auto& [from, to] : model.kept)
+      if (p.name == from) {
+        p.name = to;
+        stand_in.params.push_back(std::move(p));
+        break;
+      }
+  if (const auto& [name, value] = model.fixed; !name.empty() && !stand_in.find(name)) {
+    Param fixed;
+    fixed.name = name;
+    fixed.kind = ParamKind::kFloat;
+    fixed.numbers = {value};
+    fixed.loc = fixed.value_loc = use.loc;
+    stand_in.params.push_back(std::move(fixed));
+  }
+  if (model.family == Family::kShape && model.name == "bilinearmesh") split_patches(stand_in);
+  return stand_in;
+}
+
+void drop_unsupported_params(Family family, ModelUse& use, Diagnostics& diagnostics) {
+  const ModelDecl* decl = find_model(family, use.model);
+  const auto dropped = [&](const Param& param) {
+    if (decl && decl->find(param.name)) return false;
+    const UnsupportedParam* rule = find_unsupported(family, use.model, param.name);
+    if (!rule) return false;
+    if (rule->harmless != "*" && (rule->harmless.empty() || !has_value(param, rule->harmless)))
+      diagnostics.unsupported(param.loc,
+                              fmt::format("parameter \"{}\" of {} \"{}\"", param.name, family_name(family), use.model),
+                              std::string(rule->substitute));
+    else if (rule->name == "savefp16")
+      diagnostics.note(param.loc, "images are written with 32-bit floats, whatever savefp16 says");
+    return true;
+  };
+  use.params.erase(std::remove_if(use.params.begin(), use.params.end(), dropped), use.params.end());
+}
+
+// imagemap's filters all read the finest level bilinearly for now, which is worth one line.
+void note_filtering(Family family, const ModelUse& use, Diagnostics& diagnostics) {
+  const Param* filter = family == Family::kTexture && use.model == "imagemap" ? use.find("filter") : nullptr;
+  if (filter && filter->strings.size() == 1 && (filter->strings[0] == "trilinear" || filter->strings[0] == "ewa"))
+    diagnostics.note(filter->value_loc,
+                     "image textures are read with the bilinear filter, whatever \"filter\" asks for");
+}
+
+}  // namespace
+
+std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics& diagnostics) {
+  if (!find_model(family, use.model)) {
+    const UnsupportedModel* model = find_unsupported(family, use.model);
+    if (model) {
+      diagnostics.unsupported(use.loc, fmt::format("{} \"{}\"", family_name(family), use.model),
+                              std::string(model->substitute));
+      if (model->stand_in.empty()) return {};
+      use = substitute(*model, std::move(use));
+    } else if (!models(family).empty()) {
+      return report_unknown(family, use, diagnostics);
+    }
+  }
+  note_filtering(family, use, diagnostics);
+  drop_unsupported_params(family, use, diagnostics);
+  return use;
+}
+
+bool may_take(Family family, std::string_view model, std::string_view param) {
+  if (const ModelDecl* decl = find_model(family, model); decl && decl->find(param)) return true;
+  if (const UnsupportedModel* m = find_unsupported(family, model))
+    for (const auto& [from, to] : m->kept)
+      if (from == param) return true;
+  return find_unsupported(family, model, param) != nullptr;
+}
+
+}  // namespace etd::pbrt

@@ -1,0 +1,142 @@
+// The table itself: the models and parameters of the pbrt-v4 file format that have no counterpart yet.
+#include "formats/pbrt/coverage.h"
+
+namespace etd::pbrt {
+
+std::span<const UnsupportedModel> unsupported_models() {
+  static const std::vector<UnsupportedModel> table = {
+      {Family::kShape,
+       "bilinearmesh",
+       "trianglemesh",
+       "two triangles for each patch",
+       {{"P", "P"}, {"N", "N"}, {"uv", "uv"}, {"indices", "indices"}}},
+      {Family::kShape, "loopsubdiv", "trianglemesh", "its control mesh", {{"P", "P"}, {"indices", "indices"}}},
+      {Family::kShape, "curve", "", "no shape"},
+      {Family::kShape, "cylinder", "", "no shape"},
+      {Family::kShape, "disk", "", "no shape"},
+
+      {Family::kMaterial,
+       "coateddiffuse",
+       "diffuse",
+       "a diffuse material of the same reflectance",
+       {{"reflectance", "reflectance"}}},
+      {Family::kMaterial,
+       "coatedconductor",
+       "conductor",
+       "the conductor without its coating",
+       {{"reflectance", "reflectance"},
+        {"conductor.eta", "eta"},
+        {"conductor.k", "k"},
+        {"conductor.roughness", "roughness"},
+        {"conductor.uroughness", "uroughness"},
+        {"conductor.vroughness", "vroughness"},
+        {"remaproughness", "remaproughness"}}},
+      {Family::kMaterial, "thindielectric", "interface", "no surface"},
+      {Family::kMaterial,
+       "diffusetransmission",
+       "diffuse",
+       "a diffuse material of the same reflectance",
+       {{"reflectance", "reflectance"}},
+       {"reflectance", 0.25}},
+      {Family::kMaterial,
+       "subsurface",
+       "diffuse",
+       "a diffuse material of the same reflectance",
+       {{"reflectance", "reflectance"}}},
+      {Family::kMaterial, "hair", "diffuse", "a diffuse material of the same colour", {{"color", "reflectance"}}},
+      {Family::kMaterial, "measured", "diffuse", "a diffuse material of reflectance 0.5", {}, {"reflectance", 0.5}},
+      {Family::kMaterial, "mix", "diffuse", "a diffuse material of reflectance 0.5", {}, {"reflectance", 0.5}},
+
+      {Family::kTexture, "bilerp", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "directionmix", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "dots", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "fbm", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "marble", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "mix", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "ptex", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "windy", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+      {Family::kTexture, "wrinkled", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
+
+      {Family::kLight, "distant", "", "no light"},
+      {Family::kLight, "goniometric", "", "no light"},
+      {Family::kLight, "point", "", "no light"},
+      {Family::kLight, "projection", "", "no light"},
+      {Family::kLight, "spot", "", "no light"},
+
+      {Family::kCamera, "orthographic", "perspective", "a perspective camera of the default field of view"},
+      {Family::kCamera, "realistic", "perspective", "a perspective camera of the default field of view"},
+      {Family::kCamera, "spherical", "perspective", "a perspective camera of the default field of view"},
+
+      {Family::kFilter, "mitchell", "gaussian", "the default gaussian filter"},
+      {Family::kFilter, "sinc", "gaussian", "the default gaussian filter"},
+
+      {Family::kFilm,
+       "gbuffer",
+       "rgb",
+       "an rgb film",
+       {{"filename", "filename"},
+        {"xresolution", "xresolution"},
+        {"yresolution", "yresolution"},
+        {"cropwindow", "cropwindow"},
+        {"pixelbounds", "pixelbounds"}}},
+      {Family::kFilm,
+       "spectral",
+       "rgb",
+       "an rgb film",
+       {{"filename", "filename"},
+        {"xresolution", "xresolution"},
+        {"yresolution", "yresolution"},
+        {"cropwindow", "cropwindow"},
+        {"pixelbounds", "pixelbounds"}}},
+  };
+  return table;
+}
+
+std::span<const UnsupportedParam> unsupported_params() {
+  static const std::vector<UnsupportedParam> table = {
+      {Family::kShape, "", "alpha", "1", "an opaque surface"},
+      {Family::kShape, "trianglemesh", "S", "", "tangents from the texture coordinates"},
+      {Family::kShape, "trianglemesh", "faceIndices", "*", "only ptex textures read it"},
+      {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
+      {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
+      {Family::kShape, "sphere", "zmin", "", "the whole sphere"},
+      {Family::kShape, "sphere", "zmax", "", "the whole sphere"},
+      {Family::kShape, "sphere", "phimax", "360", "the whole sphere"},
+
+      {Family::kMaterial, "", "displacement", "0", "the surface without bumps"},
+      {Family::kMaterial, "", "normalmap", "", "the surface's own normals"},
+      {Family::kMaterial, "dielectric", "roughness", "0", "a smooth dielectric"},
+      {Family::kMaterial, "dielectric", "uroughness", "0", "a smooth dielectric"},
+      {Family::kMaterial, "dielectric", "vroughness", "0", "a smooth dielectric"},
+      {Family::kMaterial, "dielectric", "remaproughness", "*", "a smooth dielectric has no roughness"},
+
+      {Family::kTexture, "", "mapping", "uv", "the uv mapping"},
+      {Family::kTexture, "", "v1", "*", "only the planar mapping reads it"},
+      {Family::kTexture, "", "v2", "*", "only the planar mapping reads it"},
+      {Family::kTexture, "checkerboard", "dimension", "2", "a pattern of 2 dimensions"},
+      {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
+
+      {Family::kLight, "", "power", "-1", "the radiance that L and scale give"},
+      {Family::kLight, "infinite", "filename", "", "a constant environment"},
+      {Family::kLight, "infinite", "illuminance", "-1", "the radiance that L and scale give"},
+      {Family::kLight, "infinite", "portal", "", "light from all directions"},
+      {Family::kAreaLight, "diffuse", "filename", "", "the same radiance everywhere"},
+      {Family::kAreaLight, "diffuse", "power", "-1", "the radiance that L and scale give"},
+
+      {Family::kCamera, "perspective", "lensradius", "0", "a pinhole camera"},
+      {Family::kCamera, "perspective", "focaldistance", "*", "only a lens reads it"},
+      {Family::kCamera, "", "shutteropen", "0", "a shutter that opens at 0"},
+      {Family::kCamera, "", "shutterclose", "1", "a shutter that closes at 1"},
+
+      {Family::kFilm, "", "diagonal", "*", "only realistic cameras read it"},
+      {Family::kFilm, "", "savefp16", "*", "images are written with 32-bit floats"},
+      {Family::kFilm, "", "sensor", "cie1931", "the CIE 1931 observer"},
+      {Family::kFilm, "", "iso", "100", "ISO 100"},
+      {Family::kFilm, "", "exposuretime", "1", "an exposure of 1 s"},
+      {Family::kFilm, "", "whitebalance", "0", "no white balance"},
+      {Family::kFilm, "", "maxcomponentvalue", "inf", "no clamping of bright samples"},
+  };
+  return table;
+}
+
+}  // namespace etd::pbrt

@@ -1,0 +1,257 @@
+// Directives before WorldBegin: camera, film, filter, sampler, integrator and global options.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "formats/pbrt/coverage.h"
+#include "formats/pbrt/parser.h"
+#include "scene/registry.h"
+
+namespace etd::pbrt {
+
+namespace {
+
+// A second directive of a kind replaces the first, which is rarely meant.
+void replace(Parser& p, ModelUse& slot, ModelUse use, const Token& d) {
+  if (slot.loc.file >= 0)
+    p.diagnostics.warning(d.loc, fmt::format("this {} replaces the one at {}:{}", d.text,
+                                             p.diagnostics.sources().name(slot.loc.file), slot.loc.line));
+  slot = std::move(use);
+}
+
+void read_model(Parser& p, const Token& d, Family family, ModelUse& slot) {
+  std::optional<ModelUse> use = p.model_arguments(d, fmt::format("the name of a {}", family_name(family)));
+  if (!use) return;
+  if (auto supported = make_supported(family, std::move(*use), p.diagnostics))
+    replace(p, slot, std::move(*supported), d);
+}
+
+void camera(Parser& p, const Token& d) {
+  read_model(p, d, Family::kCamera, p.scene.camera);
+  p.coordinate_systems["camera"] = p.state.ctm.inverse();
+  if (const auto world_to_camera = p.placement(d.loc, "camera")) p.scene.camera_to_world = world_to_camera->inverse();
+}
+
+void film(Parser& p, const Token& d) { read_model(p, d, Family::kFilm, p.scene.film); }
+void pixel_filter(Parser& p, const Token& d) { read_model(p, d, Family::kFilter, p.scene.filter); }
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Takes the parameters that are not named out of the list and returns their names, for a note.
+std::string drop_all_but(std::initializer_list<std::string_view> kept, std::vector<Param>& params) {
+  std::string dropped;
+  const auto drop = [&](const Param& param) {
+    if (is_one_of(param.name, kept)) return false;
+    dropped += (dropped.empty() ? "" : ", ") + param.name;
+    return true;
+  };
+  params.erase(std::remove_if(params.begin(), params.end(), drop), params.end());
+  return dropped;
+}
+
+void report_unknown_name(Parser& p, const ModelUse& use, std::string_view what,
+                         std::initializer_list<std::string_view> valid) {
+  const std::vector<std::string_view> names(valid);
+  const std::string_view near = nearest_name(use.model, names);
+  p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", what, use.model),
+                      (near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near)) +
+                          fmt::format("valid: {}", fmt::join(names, ", ")));
+}
+
+// A stratified sampler says how many samples it takes as a product.
+void multiply_strata(ModelUse& use) {
+  const auto strata = [&](std::string_view name) {
+    const Param* param = use.find(name);
+    return param && param->integers.size() == 1 ? param->integers[0] : 4;
+  };
+  Param samples;
+  samples.name = "pixelsamples";
+  samples.kind = ParamKind::kInteger;
+  samples.integers = {strata("xsamples") * strata("ysamples")};
+  const Param* given = use.find("xsamples");
+  samples.loc = given ? given->loc : use.loc;
+  samples.value_loc = given ? given->value_loc : use.loc;
+  use.params.push_back(std::move(samples));
+}
+
+void sampler(Parser& p, const Token& d) {
+  const std::initializer_list<std::string_view> kNames = {"independent", "sobol",   "paddedsobol", "zsobol",
+                                                              "halton",      "pmj02bn", "stratified"};
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of a sampler");
+  if (!use) return;
+  const std::string name = use->model;
+  const bool own = find_model(Family::kSampler, name) != nullptr;
+  if (!own && !is_one_of(name, kNames)) {
+    report_unknown_name(p, *use, "sampler", kNames);
+    use->model = "sobol";
+    use->params.clear();
+  } else if (!is_one_of(name, {"independent", "sobol"}) && !own) {
+    if (name == "stratified") multiply_strata(*use);
+    use->model = "sobol";
+    std::string dropped = drop_all_but({"pixelsamples", "seed"}, use->params);
+    if (name != "paddedsobol")
+      p.diagnostics.note(use->loc, fmt::format("sampler \"{}\" is rendered with \"sobol\"", name) +
+                                       (dropped.empty() ? "" : fmt::format(", without its {}", dropped)));
+  }
+  const ModelDecl* decl = find_model(Family::kSampler, use->model);
+  if (const Param* r = use->find("randomization"); r && !(decl && decl->find("randomization"))) {
+    p.diagnostics.note(r->loc, "samples are scrambled by Owen's method, whatever \"randomization\" says");
+    drop_all_but({"pixelsamples", "seed"}, use->params);
+  }
+  replace(p, p.scene.sampler, std::move(*use), d);
+}
+
+// What the path integrator of pbrt has beside its depth.
+void read_path_params(Parser& p, ModelUse& use) {
+  const ModelDecl* decl = find_model(Family::kIntegrator, "path");
+  const auto foreign = [&](const Param& param) {
+    if (decl && decl->find(param.name)) return false;
+    if (param.name == "lightsampler") {
+      p.diagnostics.note(param.loc, "lights are chosen by their power, whatever \"lightsampler\" says");
+      return true;
+    }
+    if (param.name != "regularize") return false;
+    if (param.integers.size() != 1 || param.integers[0])
+      p.diagnostics.unsupported(param.loc, "parameter \"regularize\" of integrator \"path\"",
+                                "surfaces as sharp as they are");
+    return true;
+  };
+  use.params.erase(std::remove_if(use.params.begin(), use.params.end(), foreign), use.params.end());
+}
+
+void integrator(Parser& p, const Token& d) {
+  const std::initializer_list<std::string_view> kNames = {
+      "path",       "volpath",          "bdpt",      "mlt",     "sppm", "simplepath", "simplevolpath", "ao",
+      "randomwalk", "ambientocclusion", "lightpath", "function"};
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
+  if (!use) return;
+  const std::string name = use->model;
+  if (!find_model(Family::kIntegrator, name) && !is_one_of(name, kNames)) {
+    report_unknown_name(p, *use, "integrator", kNames);
+    use->model = "path";
+    use->params.clear();
+  } else if (!find_model(Family::kIntegrator, name) && name != "path") {
+    use->model = "path";
+    read_path_params(p, *use);
+    const std::string dropped = drop_all_but({"maxdepth"}, use->params);
+    p.diagnostics.note(use->loc, fmt::format("integrator \"{}\" is rendered with \"path\"", name) +
+                                     (dropped.empty() ? "" : fmt::format(", without its {}", dropped)));
+  }
+  if (use->model == "path") read_path_params(p, *use);
+  replace(p, p.scene.integrator, std::move(*use), d);
+}
+
+void accelerator(Parser& p, const Token& d) {
+  if (const auto use = p.model_arguments(d, "the name of an accelerator"))
+    p.diagnostics.note(d.loc, "Accelerator is not used: rays are always traced by Embree");
+}
+
+void color_space(Parser& p, const Token& d) {
+  const auto name = p.string_argument(d.text, "the name of a color space");
+  if (!name || name->text == "srgb") return;
+  if (is_one_of(name->text, {"aces2065-1", "dci-p3", "rec2020"}))
+    p.diagnostics.unsupported(name->loc, fmt::format("color space \"{}\"", name->text), "srgb");
+  else
+    p.diagnostics.error(name->loc, fmt::format("unknown color space \"{}\"", name->text),
+                        "valid: srgb, aces2065-1, dci-p3, rec2020");
+}
+
+// An option of pbrt, and what it means here.
+struct OptionRule {
+  enum class Effect : uint8_t { kSeed, kNone, kNote, kUnsupportedIfTrue };
+  std::string_view name;
+  Effect effect;
+  std::string_view text;  // a note or a substitute
+};
+constexpr std::array<OptionRule, 11> kOptions = {
+    {{"seed", OptionRule::Effect::kSeed, ""},
+     {"rendercoordsys", OptionRule::Effect::kNone, ""},
+     {"disabletexturefiltering", OptionRule::Effect::kNone, ""},
+     {"disablewavelengthjitter", OptionRule::Effect::kNone, ""},
+     {"displacementedgescale", OptionRule::Effect::kNone, ""},
+     {"wavefront", OptionRule::Effect::kNone, ""},
+     {"disablepixeljitter", OptionRule::Effect::kUnsupportedIfTrue, "samples spread over the pixel filter"},
+     {"forcediffuse", OptionRule::Effect::kUnsupportedIfTrue, "the materials as they are"},
+     {"pixelstats", OptionRule::Effect::kNote, "no statistics of single pixels are written"},
+     {"msereferenceimage", OptionRule::Effect::kNote, "no comparison with a reference is made while rendering"},
+     {"msereferenceout", OptionRule::Effect::kNote, "no comparison with a reference is made while rendering"}}};
+
+// pbrt reads "mse-reference-image", "mseReferenceImage" and the same with a type before it as one.
+std::string normalised_option(std::string name) {
+  if (const size_t space = name.find_last_of(" \t"); space != std::string::npos) name.erase(0, space + 1);
+  std::string out;
+  for (const char c : name)
+    if (c != '-' && c != '_') out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+void option(Parser& p, const Token& d) {
+  const auto name = p.string_argument(d.text, "the name of an option");
+  if (!name) return;
+  std::optional<Token> value = p.tokens.next();
+  const bool bracketed = value && value->kind == Token::Kind::kOpen;
+  if (bracketed) value = p.tokens.next();
+  if (!value || value->kind == Token::Kind::kClose || find_directive(value->text)) {
+    p.diagnostics.error(name->loc, fmt::format("option \"{}\" has no value", name->text));
+    return p.resynchronise();
+  }
+  if (bracketed) {
+    const std::optional<Token> close = p.tokens.peek();
+    if (close && close->kind == Token::Kind::kClose) p.tokens.next();
+  }
+  const std::string key = normalised_option(name->value());
+  const auto rule = std::find_if(kOptions.begin(), kOptions.end(), [&](const OptionRule& r) { return r.name == key; });
+  if (rule == kOptions.end()) {
+    std::vector<std::string_view> names;
+    for (const OptionRule& r : kOptions) names.push_back(r.name);
+    const std::string_view near = nearest_name(key, names);
+    p.diagnostics.error(
+        name->loc, fmt::format("unknown option \"{}\"", name->text),
+        near.empty() ? fmt::format("valid: {}", fmt::join(names, ", ")) : fmt::format("did you mean \"{}\"?", near));
+    return;
+  }
+  switch (rule->effect) {
+    case OptionRule::Effect::kNone:
+      return;
+    case OptionRule::Effect::kNote:
+      return p.diagnostics.note(name->loc, std::string(rule->text));
+    case OptionRule::Effect::kSeed:
+      p.seed = parse_integer(value->text);
+      if (!p.seed) p.diagnostics.error(value->loc, fmt::format("the seed is an integer, not {}", value->text));
+      return;
+    case OptionRule::Effect::kUnsupportedIfTrue:
+      if (value->text == "true")
+        p.diagnostics.unsupported(name->loc, fmt::format("option \"{}\"", name->text), std::string(rule->text));
+      else if (value->text != "false")
+        p.diagnostics.error(value->loc, fmt::format("option \"{}\" is true or false", name->text));
+      return;
+  }
+}
+
+void world_begin(Parser& p, const Token&) {
+  p.state.ctm = {};
+  p.state.start_active = p.state.end_active = true;
+  p.coordinate_systems["world"] = p.state.ctm;
+  p.world_begun = true;
+}
+
+}  // namespace
+
+std::span<const Directive> option_directives() {
+  using Where = Directive::Where;
+  static constexpr std::array<Directive, 9> kDirectives = {{{"Camera", Where::kOptions, camera},
+                                                            {"Film", Where::kOptions, film},
+                                                            {"PixelFilter", Where::kOptions, pixel_filter},
+                                                            {"Sampler", Where::kOptions, sampler},
+                                                            {"Integrator", Where::kOptions, integrator},
+                                                            {"Accelerator", Where::kOptions, accelerator},
+                                                            {"ColorSpace", Where::kAnywhere, color_space},
+                                                            {"Option", Where::kAnywhere, option},
+                                                            {"WorldBegin", Where::kOptions, world_begin}}};
+  return kDirectives;
+}
+
+}  // namespace etd::pbrt

@@ -1,0 +1,178 @@
+#include "formats/pbrt/parser.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "formats/pbrt/coverage.h"
+#include "formats/pbrt/parameter_list.h"
+
+namespace etd::pbrt {
+
+namespace {
+
+bool is_directive(std::string_view word) { return find_directive(word) != nullptr; }
+
+std::string unknown_directive_hint(std::string_view word) {
+  if (word == "WorldEnd") return "WorldEnd is of pbrt-v3; the world of pbrt-v4 ends with the file";
+  std::vector<std::string_view> names;
+  for (const auto& list : {transform_directives(), option_directives(), world_directives()})
+    for (const Directive& d : list) names.push_back(d.name);
+  const std::string_view near = nearest_name(word, names);
+  return near.empty() ? "" : fmt::format("did you mean {}?", near);
+}
+
+std::string shown(const Token& token) {
+  return token.kind == Token::Kind::kString ? fmt::format("\"{}\"", token.text) : std::string(token.text);
+}
+
+}  // namespace
+
+const Directive* find_directive(std::string_view name) {
+  for (const auto& list : {world_directives(), transform_directives(), option_directives()})
+    for (const Directive& d : list)
+      if (d.name == name) return &d;
+  return nullptr;
+}
+
+void Parser::read_directives() {
+  while (const std::optional<Token> token = tokens.next()) {
+    const Directive* directive = token->kind == Token::Kind::kWord ? find_directive(token->text) : nullptr;
+    any_directive = true;
+    if (!directive) {
+      if (token->kind == Token::Kind::kWord)
+        diagnostics.error(token->loc, fmt::format("unknown directive {}", token->text),
+                          unknown_directive_hint(token->text));
+      else
+        diagnostics.error(token->loc, fmt::format("expected a directive, not {}", shown(*token)));
+      resynchronise();
+      continue;
+    }
+    if (directive->where == Directive::Where::kWorld && !world_begun && !world_implied) {
+      diagnostics.error(token->loc, fmt::format("{} before WorldBegin", directive->name),
+                        "options come first, then WorldBegin, then the world");
+      world_implied = true;
+    }
+    if (directive->where == Directive::Where::kOptions && world_begun) {
+      diagnostics.error(token->loc, fmt::format("{} after WorldBegin", directive->name),
+                        "it is an option of the whole scene and stands before WorldBegin");
+      resynchronise();
+      continue;
+    }
+    directive->read(*this, *token);
+  }
+}
+
+void Parser::resynchronise() {
+  tokens.set_quiet(true);
+  while (const std::optional<Token> token = tokens.peek()) {
+    if (token->kind == Token::Kind::kWord && is_directive(token->text)) break;
+    tokens.next();
+  }
+  tokens.set_quiet(false);
+}
+
+std::optional<Token> Parser::string_argument(std::string_view directive, std::string_view what) {
+  const std::optional<Token> token = tokens.peek();
+  if (token && token->kind == Token::Kind::kString) return tokens.next();
+  const std::string found = token ? shown(*token) : "the end of the file";
+  diagnostics.error(token ? token->loc : SourceLoc{},
+                    fmt::format("{} takes {} in quotes, not {}", directive, what, found));
+  resynchronise();
+  return {};
+}
+
+std::optional<std::vector<double>> Parser::number_arguments(const Token& directive, size_t count) {
+  std::vector<double> numbers;
+  std::optional<Token> token = tokens.peek();
+  const bool bracketed = token && token->kind == Token::Kind::kOpen;
+  if (bracketed) tokens.next();
+  while (numbers.size() < count) {
+    token = tokens.peek();
+    const std::optional<double> number =
+        token && token->kind == Token::Kind::kWord ? parse_number(token->text) : std::optional<double>();
+    if (!number) break;
+    if (!std::isfinite(*number)) {
+      diagnostics.error(token->loc, fmt::format("{} is not a finite number", token->text));
+      resynchronise();
+      return {};
+    }
+    numbers.push_back(*number);
+    tokens.next();
+  }
+  token = tokens.peek();
+  if (numbers.size() == count && (!bracketed || (token && token->kind == Token::Kind::kClose))) {
+    if (bracketed) tokens.next();
+    return numbers;
+  }
+  const SourceLoc loc = token && numbers.size() < count && !is_directive(token->text) ? token->loc : directive.loc;
+  if (numbers.size() == count)
+    diagnostics.error(directive.loc,
+                      fmt::format("the list of {} is not closed after {} numbers", directive.text, count));
+  else if (token && !is_directive(token->text))
+    diagnostics.error(loc, fmt::format("{} takes {} numbers; {} is none", directive.text, count, shown(*token)));
+  else
+    diagnostics.error(loc, fmt::format("{} takes {} numbers, not {}", directive.text, count, numbers.size()));
+  resynchronise();
+  return {};
+}
+
+std::vector<Param> Parser::parameters() { return read_parameters(tokens, is_directive, diagnostics); }
+
+std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::string_view what) {
+  const std::optional<Token> name = string_argument(directive.text, what);
+  if (!name) return {};
+  ModelUse use{name->value(), {}, name->loc};
+  use.params = parameters();
+  return use;
+}
+
+std::optional<Transform> Parser::placement(const SourceLoc& loc, std::string_view what) {
+  if (state.ctm.is_moving())
+    diagnostics.unsupported(loc, fmt::format("motion blur (this {} has two transforms)", what), "the start transform");
+  const Transform& t = state.ctm.start;
+  if (t.is_singular()) {
+    diagnostics.error(loc, fmt::format("the transform of this {} is singular", what),
+                      "it squeezes space flat, so it has no inverse: look for a Scale by 0 or a broken matrix");
+    return {};
+  }
+  if (!t.is_affine()) {
+    diagnostics.error(loc, fmt::format("the transform of this {} is not affine", what),
+                      "the last row of its matrix must be 0 0 0 1");
+    return {};
+  }
+  return t;
+}
+
+void Parser::add_defaults(AttributeTarget target, Family family, ModelUse& use) const {
+  for (const Param& p : state.defaults[static_cast<size_t>(target)])
+    if (!use.find(p.name) && may_take(family, use.model, p.name)) use.params.push_back(p);
+}
+
+void Parser::open_block(Block::Kind kind, const SourceLoc& loc) { blocks.push_back({kind, loc, state}); }
+
+bool Parser::close_block(Block::Kind kind, const SourceLoc& loc) {
+  size_t match = blocks.size();
+  while (match > first_block && blocks[match - 1].kind != kind) --match;
+  if (match == first_block) {
+    diagnostics.error(loc, fmt::format("{0}End without {0}Begin", block_name(kind)));
+    return false;
+  }
+  report_open_blocks(match);
+  state = std::move(blocks.back().outside);
+  blocks.pop_back();
+  return true;
+}
+
+void Parser::report_open_blocks(size_t from) {
+  while (blocks.size() > from) {
+    const Block& open = blocks.back();
+    diagnostics.error(open.loc, fmt::format("{0}Begin without {0}End", block_name(open.kind)));
+    if (open.kind == Block::Kind::kObject) object = -1;
+    state = std::move(blocks.back().outside);
+    blocks.pop_back();
+  }
+}
+
+}  // namespace etd::pbrt

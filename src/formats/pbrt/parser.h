@@ -1,0 +1,75 @@
+// The state of one reading, shared by the directives. Each directive is a function that takes its arguments from the
+// tokens and changes this state or the description.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/pbrt/graphics_state.h"
+#include "formats/pbrt/names.h"
+#include "formats/pbrt/token_stream.h"
+#include "params/declaration.h"
+#include "scene/description.h"
+
+namespace etd::pbrt {
+
+class Parser {
+ public:
+  Parser(SceneDescription description, TokenStream stream, Diagnostics& messages)
+      : diagnostics(messages), tokens(std::move(stream)), scene(std::move(description)) {}
+
+  // Reads directives until the end of the stream.
+  void read_directives();
+  // Goes to the next directive without a word: after an error nothing in between can be trusted.
+  void resynchronise();
+
+  // Arguments. Without what is asked for, they report it and return nothing; the directive then gives up.
+  std::optional<Token> string_argument(std::string_view directive, std::string_view what);
+  // `count` finite numbers, in brackets or not.
+  std::optional<std::vector<double>> number_arguments(const Token& directive, size_t count);
+  std::vector<Param> parameters();
+  // A model's name and its parameters.
+  std::optional<ModelUse> model_arguments(const Token& directive, std::string_view what);
+
+  // The current transform for something placed in the world; reports motion and, returning nothing, singular ones.
+  std::optional<Transform> placement(const SourceLoc& loc, std::string_view what);
+  // Adds the defaults that `Attribute` gave for this target.
+  void add_defaults(AttributeTarget target, Family family, ModelUse& use) const;
+
+  void open_block(Block::Kind kind, const SourceLoc& loc);
+  // False, and reported, when no block of this kind is open here.
+  bool close_block(Block::Kind kind, const SourceLoc& loc);
+  void report_open_blocks(size_t from);
+
+  Diagnostics& diagnostics;
+  TokenStream tokens;
+  SceneDescription scene;
+  Names names;
+  GraphicsState state;
+  std::vector<Block> blocks;
+  size_t first_block = 0;  // blocks before this one belong to the importing file
+  std::map<std::string, TransformPair> coordinate_systems;
+  int object = -1;  // being defined; index into the scene's objects
+  std::optional<int32_t> seed;
+  bool any_directive = false;
+  bool world_begun = false;    // WorldBegin was read
+  bool world_implied = false;  // it was missing, which has been reported
+};
+
+struct Directive {
+  // Where it may stand, relative to WorldBegin.
+  enum class Where : uint8_t { kAnywhere, kOptions, kWorld };
+  std::string_view name;
+  Where where;
+  void (*read)(Parser&, const Token&);
+};
+
+std::span<const Directive> transform_directives();
+std::span<const Directive> option_directives();
+std::span<const Directive> world_directives();
+const Directive* find_directive(std::string_view name);
+
+}  // namespace etd::pbrt

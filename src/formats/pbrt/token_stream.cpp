@@ -1,0 +1,128 @@
+#include "formats/pbrt/token_stream.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace etd::pbrt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The bytes of a file, or why they cannot be had.
+struct Bytes {
+  std::string text, problem;
+};
+
+Bytes read_bytes(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {{}, "does not exist"};
+  if (fs::is_directory(path, error)) return {{}, "is a folder"};
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in) return {{}, "cannot be read"};
+  std::string text(static_cast<size_t>(in.tellg()), '\0');
+  in.seekg(0);
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in) return {{}, "cannot be read"};
+  return {std::move(text), {}};
+}
+
+bool is_gzip(std::string_view text) { return text.substr(0, 2) == "\x1f\x8b"; }
+bool is_binary(std::string_view text) { return text.substr(0, 4096).find('\0') != std::string_view::npos; }
+
+}  // namespace
+
+int32_t TokenStream::push_text(std::string text, const std::string& name) {
+  const int32_t source = diagnostics_.sources().add(name, std::move(text));
+  files_.push_back({Tokenizer(source, diagnostics_), fs::path(), false});
+  return source;
+}
+
+int32_t TokenStream::push_main(const fs::path& file) { return push_file(file, {}, false); }
+
+bool TokenStream::push_included(const std::string& name, const SourceLoc& loc, bool isolated) {
+  const fs::path given = name;
+  if (name.empty()) {
+    diagnostics_.error(loc, "the name of the file is empty");
+    return false;
+  }
+  fs::path path = (folder_ / given).lexically_normal();
+  std::error_code error;
+  if (!fs::exists(path, error) && !files_.empty() && !files_.back().path.empty()) {
+    const fs::path beside = (files_.back().path.parent_path() / given).lexically_normal();
+    if (fs::exists(beside, error)) path = beside;
+  }
+  return push_file(path, loc, isolated) >= 0;
+}
+
+int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool isolated) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  if (closes_a_loop(canonical, loc)) return -1;
+  auto known = read_.find(canonical);
+  if (known == read_.end()) {
+    Bytes bytes = read_bytes(path);
+    if (!bytes.problem.empty()) {
+      diagnostics_.error(loc, fmt::format("the file \"{}\" {}", path.string(), bytes.problem));
+      return -1;
+    }
+    if (is_gzip(bytes.text)) {
+      diagnostics_.unsupported(loc, fmt::format("the gzip-compressed file \"{}\"", path.string()), "nothing of it");
+      return -1;
+    }
+    if (is_binary(bytes.text)) {
+      diagnostics_.error(loc, fmt::format("the file \"{}\" is not text", path.string()),
+                         "a pbrt scene is plain text; meshes are named in Shape \"plymesh\"");
+      return -1;
+    }
+    known = read_.emplace(canonical, diagnostics_.sources().add(path.string(), std::move(bytes.text))).first;
+  }
+  files_.push_back({Tokenizer(known->second, diagnostics_), path, isolated});
+  files_.back().tokenizer.set_quiet(quiet_);
+  return known->second;
+}
+
+bool TokenStream::closes_a_loop(const fs::path& canonical, const SourceLoc& loc) {
+  std::error_code error;
+  for (size_t i = 0; i < files_.size(); ++i) {
+    if (files_[i].path.empty() || fs::weakly_canonical(files_[i].path, error) != canonical) continue;
+    std::string chain;
+    for (size_t j = i; j < files_.size(); ++j) chain += files_[j].path.string() + " -> ";
+    diagnostics_.error(loc, "this file includes itself", chain + files_[i].path.string());
+    return true;
+  }
+  return false;
+}
+
+void TokenStream::pop_isolated() {
+  peeked_.reset();
+  while (!files_.empty() && !files_.back().isolated) files_.pop_back();
+  if (!files_.empty()) files_.pop_back();
+}
+
+std::optional<Token> TokenStream::next() {
+  if (peeked_) {
+    const std::optional<Token> token = peeked_;
+    peeked_.reset();
+    return token;
+  }
+  while (!files_.empty()) {
+    if (std::optional<Token> token = files_.back().tokenizer.next()) return token;
+    if (files_.back().isolated) break;
+    files_.pop_back();
+  }
+  return {};
+}
+
+std::optional<Token> TokenStream::peek() {
+  if (!peeked_) peeked_ = next();
+  return peeked_;
+}
+
+void TokenStream::set_quiet(bool quiet) {
+  quiet_ = quiet;
+  for (File& file : files_) file.tokenizer.set_quiet(quiet);
+}
+
+}  // namespace etd::pbrt

@@ -1,0 +1,52 @@
+// Cuts the text of a pbrt file into words, strings and brackets, each with its place.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "params/diagnostics.h"
+
+namespace etd::pbrt {
+
+struct Token {
+  enum class Kind : uint8_t { kWord, kString, kOpen, kClose };
+  Kind kind = Kind::kWord;
+  std::string_view text;  // of a string: without the quotes, escapes as written
+  SourceLoc loc;          // with the quotes
+
+  bool is_word(std::string_view word) const { return kind == Kind::kWord && text == word; }
+  // The value of a string: escapes replaced. Of any other token its text.
+  std::string value() const;
+};
+
+class Tokenizer {
+ public:
+  // `file` is a source of `diagnostics`; its text must stay.
+  Tokenizer(int32_t file, Diagnostics& diagnostics);
+
+  // The next token, none at the end of the text. A broken string is reported and returned as far as it goes.
+  std::optional<Token> next();
+  // While quiet, broken strings are not reported: what is skipped after an error is not worth a message.
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+  int32_t file() const { return file_; }
+
+ private:
+  void skip_space();
+  Token string_token();
+  Token token(Token::Kind kind, size_t begin, size_t end) const;
+  SourceLoc location(size_t begin, size_t end) const;
+
+  std::string_view text_;
+  Diagnostics& diagnostics_;
+  size_t at_ = 0, line_start_ = 0;
+  int32_t file_, line_ = 1;
+  bool quiet_ = false;
+};
+
+// A number as pbrt writes it ("1", "-.5", "+3e-4"); none when the text is anything else. Too large ones are infinite.
+std::optional<double> parse_number(std::string_view text);
+// A 32-bit integer; none when the text is anything else or out of range.
+std::optional<int32_t> parse_integer(std::string_view text);
+
+}  // namespace etd::pbrt
