@@ -79,7 +79,7 @@ void multiply_strata(ModelUse& use) {
 
 void sampler(Parser& p, const Token& d) {
   const std::initializer_list<std::string_view> kNames = {"independent", "sobol",   "paddedsobol", "zsobol",
-                                                              "halton",      "pmj02bn", "stratified"};
+                                                          "halton",      "pmj02bn", "stratified"};
   std::optional<ModelUse> use = p.model_arguments(d, "the name of a sampler");
   if (!use) return;
   const std::string name = use->model;
