@@ -188,6 +188,7 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
 }
 
 bool may_take(Family family, std::string_view model, std::string_view param) {
+  if (models(family).empty()) return true;
   if (const ModelDecl* decl = find_model(family, model); decl && decl->find(param)) return true;
   if (const UnsupportedModel* m = find_unsupported(family, model))
     for (const auto& [from, to] : m->kept)

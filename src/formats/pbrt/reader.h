@@ -18,8 +18,4 @@ SceneDescription read_pbrt(const std::filesystem::path& file, Diagnostics& diagn
 SceneDescription read_pbrt_text(std::string text, const std::string& name, const std::filesystem::path& folder,
                                 Diagnostics& diagnostics);
 
-// The chapter "formats/pbrt" of the manual, in Markdown: every model and parameter that is read, from their
-// declarations, and everything of the language that is not, with what is rendered instead.
-std::string pbrt_coverage_markdown();
-
 }  // namespace etd
