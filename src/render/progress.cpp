@@ -1,0 +1,86 @@
+#include "render/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace etd {
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr std::chrono::milliseconds kRedrawInterval{200};
+
+double share(const RenderProgress& p) { return p.spp > 0 ? std::clamp(p.spp_done / p.spp, 0.0, 1.0) : 1.0; }
+
+}  // namespace
+
+std::string short_count(double count) {
+  const char* prefix = "";
+  for (const char* next : {" k", " M", " G", " T"}) {
+    if (count < 999.5) break;
+    count /= 1000;
+    prefix = next;
+  }
+  return fmt::format("{:.{}f}{}", count, count < 9.995 ? 2 : count < 99.95 ? 1 : 0, *prefix ? prefix : " ");
+}
+
+std::string clock_text(double seconds) {
+  const long s = std::isfinite(seconds) && seconds < 1e9 ? std::lround(seconds) : 0;
+  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+std::string error_text(double error) {
+  return std::isfinite(error) ? fmt::format("{:.2g} %", 100 * error) : std::string("unknown");
+}
+
+std::string progress_text(const RenderProgress& p) {
+  std::string text = fmt::format("{:.0f}/{} spp, error {}", std::floor(p.spp_done), p.spp, error_text(p.error));
+  if (p.seconds > 0) text += fmt::format(", {}rays/s", short_count(static_cast<double>(p.rays) / p.seconds));
+  if (share(p) > 0 && share(p) < 1) text += fmt::format(", {} left", clock_text(p.seconds * (1 / share(p) - 1)));
+  return text;
+}
+
+void ProgressPrinter::on_progress(const RenderProgress& progress) {
+  // Whoever finds another thread here has nothing newer to say.
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock || share(progress) == 1) return;  // the end of a pass knows the error better
+  if (!redraw_)
+    print_line(progress);
+  else if (std::chrono::steady_clock::now() - last_ >= kRedrawInterval)
+    draw(progress);
+}
+
+void ProgressPrinter::on_pass_end(const RenderProgress& progress) {
+  const std::lock_guard lock(mutex_);
+  redraw_ ? draw(progress) : print_line(progress);
+}
+
+void ProgressPrinter::print_line(const RenderProgress& progress) {
+  const int tenths = static_cast<int>(10 * share(progress));
+  if (tenths <= tenths_) return;
+  tenths_ = tenths;
+  fmt::print(out_, "{:3} %  {}\n", 10 * tenths, progress_text(progress));
+  std::fflush(out_);
+}
+
+void ProgressPrinter::draw(const RenderProgress& progress) {
+  last_ = std::chrono::steady_clock::now();
+  const auto filled = static_cast<size_t>(std::lround(kBarWidth * share(progress)));
+  const std::string line =
+      fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), progress_text(progress));
+  fmt::print(out_, "\r{:<{}}", line, drawn_);
+  std::fflush(out_);
+  drawn_ = line.size();
+}
+
+void ProgressPrinter::finish() {
+  const std::lock_guard lock(mutex_);
+  if (drawn_ == 0) return;
+  fmt::print(out_, "\r{:{}}\r", "", drawn_);
+  std::fflush(out_);
+  drawn_ = 0;
+}
+
+}  // namespace etd

@@ -1,0 +1,27 @@
+// What a render cost, as numbers for programs: the file that --stats writes.
+#pragma once
+
+#include <string>
+
+#include "film/film.h"
+
+namespace etd {
+
+struct RenderStats {
+  double load_seconds = 0, build_seconds = 0, render_seconds = 0;
+  RayCounts rays;
+  double rays_per_pixel_mean = 0, rays_per_pixel_max = 0;  // over all samples of a pixel
+  uint64_t paths = 0;                                      // samples taken, over all pixels
+  uint64_t peak_bytes = 0;                                 // of the process
+  uint32_t spp = 0;                                        // that every pixel has
+};
+
+// Fills in what the film knows: paths and rays per pixel.
+void count_pixels(const Film& film, RenderStats& stats);
+// The largest memory the process has held so far, in bytes.
+uint64_t peak_memory_bytes();
+// {"seconds": {"load", "build", "render"}, "rays": {"camera", "indirect", "shadow"}, "rays_per_pixel": {"mean", "max"},
+// "paths", "peak_bytes", "spp"}, ending with a newline.
+std::string stats_json(const RenderStats& stats);
+
+}  // namespace etd

@@ -1,0 +1,7 @@
+#include "render/version.h"
+
+namespace etd {
+
+const char* version() { return ETENDUE_VERSION; }
+
+}  // namespace etd
