@@ -201,6 +201,33 @@ TEST(Leak, ConvexBodiesDoNotMeetTheirOwnRays) {
   }
 }
 
+// Thin triangles in every direction: needles of height 10^-4, obtuse slivers to where their bound is capped.
+TEST(Leak, TrianglesDoNotMeetTheirOwnRays) {
+  HashStream h(8);
+  uint64_t hits = 0;
+  for (uint32_t c = 0; c < 1200; ++c) {
+    const bool needle = c % 2;
+    const double height = std::pow(needle ? 1e-4 : 4e-3, h.next_float());
+    const Vec2 at = uniform(h);
+    const Transform t = Transform::translate({10.0 * at.x, 10.0 * at.y, 0}) *
+                        Transform::rotate(360.0 * h.next_float(), to_double(sample_sphere_uniform(uniform(h))));
+    Mesh m;
+    m.positions = {to_float(t.point({0, 0, 0})), to_float(t.point({1, 0, 0})),
+                   to_float(t.point({needle ? 0.0 : 0.5, height, 0}))};
+    m.triangles = {{0, 1, 2}};
+    Geometry g;
+    g.meshes = {m};
+    g.groups[0].meshes = {0};
+    const Accelerator accel(g);
+    for (int i = 0; i < 200; ++i) {
+      const SurfacePoint s = sample_triangle(m, 0, uniform(h));
+      const Vec3 w = cosine_direction(s.ng, h);
+      hits += accel.occluded(spawn_ray(s, i % 2 ? w : -w));
+    }
+  }
+  EXPECT_EQ(hits, 0u);
+}
+
 // A ray that enters a sphere finds its far side, and one that leaves it from there finds nothing.
 TEST(Leak, SpheresAreCrossedOnce) {
   HashStream h(9);

@@ -1,3 +1,4 @@
+// Points of triangles, with the error bound that keeps rays from meeting the triangle that they leave.
 #include "shapes/triangle.h"
 
 #include "core/warp.h"
@@ -7,46 +8,47 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;  // largest relative error of rounding to float
 constexpr double kEdgeDistance = 0x1p-20;
+constexpr double kMaxCondition = 64.0;
 
 // Length, shape and normal of a triangle, in double.
 struct Face {
   Point3d p[3];
-  Vec3d normal;      // (p1 - p0) x (p2 - p0)
-  double area2;      // its length, twice the area
-  double longest;    // edge
-  double condition;  // product of the two shorter edges over area2, at least 1
+  Vec3d n;         // unit; along (p1 - p0) x (p2 - p0)
+  double area2;    // twice the area
+  double longest;  // edge
+  double error;    // the part of the error bound below that is the same for all points
 
   Face(const Mesh& mesh, uint32_t triangle) {
     const auto& index = mesh.triangles[triangle];
     for (int i = 0; i < 3; ++i) p[i] = to_double(mesh.positions[index[i]]);
     const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
-    normal = cross(a, b);
-    area2 = length(normal);
+    n = cross(a, b);
+    area2 = length(n);
+    const double inverse = 1.0 / area2;
+    n = area2 > 0.0 ? n * inverse : Vec3d{0, 0, 1};
     const double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
-    const double longest2 = std::max(aa, std::max(bb, cc));
-    longest = std::sqrt(longest2);
-    const double shorter2 = longest2 == aa ? bb * cc : (longest2 == bb ? aa * cc : aa * bb);
-    condition = area2 > 0.0 ? std::sqrt(shorter2) / area2 : 1.0;
+    longest = std::sqrt(std::max(aa, std::max(bb, cc)));
+    error = 8.0 * kUnit * std::min(kMaxCondition * longest, std::sqrt(aa * bb * cc) * inverse);
   }
 
-  // How far from the plane a ray origin near the point p (with normal n) must be for the ray not to meet the triangle
-  // again. With u = 2^-24, L the longest edge, and every vertex within L of the origin, the errors along the normal are
+  // How far from the plane a ray origin near `at` must be for the ray not to meet the triangle again. With u = 2^-24, L
+  // the longest edge, and every vertex within L of the origin, the errors along the normal are
   //   - u |n|.|p|  from rounding p to float,
   //   - u L        from Embree's rounding of the vertices relative to the origin,
   //   - 4 u k L    from its normal, a cross product of two rounded edges e, f: |dN| <= 4 u |e||f| = 4 u k |N|, where
   //                k = |e||f| / |N| for the two shorter edges, which its stable_triangle_normal prefers,
   //   - 3 u L      from the dot product of a vertex with that normal.
-  // As k >= 1, u (|n|.|p| + 8 k L) covers them. Beyond k = 64 (a sliver of height below L/256) the bound would push
-  // origins across neighbouring geometry; there we accept that a sliver may shadow itself.
-  double error(Point3d at, Vec3d n) const {
-    const Vec3d size{std::abs(at.x), std::abs(at.y), std::abs(at.z)};
-    return kUnit * (dot(abs(n), size) + 8.0 * std::min(condition, 64.0) * longest);
+  // As k >= 1, u (|n|.|p| + 8 k L) covers them; k L is the product of the edges over twice the area. Beyond k = 64 (an
+  // obtuse sliver of height below L/256) the bound would push origins across neighbouring geometry; there we accept
+  // that a sliver may shadow itself.
+  double error_at(Point3d at) const {
+    return kUnit * (std::abs(n.x * at.x) + std::abs(n.y * at.y) + std::abs(n.z * at.z)) + error;
   }
 
-  // Smallest barycentric that keeps a point 4 * error from the edges; at most 1/8 for triangles that are no larger than
-  // their own error.
-  double edge_distance(double error) const {
-    const double wanted = 4.0 * error * longest / area2;
+  // Smallest barycentric that keeps a point 4 * distance from the edges; at most 1/8 for triangles that are no larger
+  // than their own error.
+  double edge_distance(double distance) const {
+    const double wanted = 4.0 * distance * longest / area2;
     return std::max(kEdgeDistance, wanted < 0.125 ? wanted : 0.125);
   }
 };
@@ -92,20 +94,21 @@ void set_parametrisation(const Mesh& mesh, const std::array<uint32_t, 3>& index,
 SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float margin) {
   const auto& index = mesh.triangles[triangle];
   const Face f(mesh, triangle);
-  const Vec3d n = f.area2 > 0.0 ? f.normal * (1.0 / f.area2) : Vec3d{0, 0, 1};
-
-  const double raw1 = b1, raw2 = b2, raw0 = 1.0 - raw1 - raw2;
-  const double nearest = f.edge_distance(f.error(blend(f, raw0, raw1, raw2), n) + margin);
-  double c0 = std::max(raw0, nearest), c1 = std::max(raw1, nearest), c2 = std::max(raw2, nearest);
-  const double scale = 1.0 / (c0 + c1 + c2);
-  c0 *= scale, c1 *= scale, c2 *= scale;
+  double c1 = b1, c2 = b2, c0 = 1.0 - c1 - c2;
+  Point3d p = blend(f, c0, c1, c2);
+  const double error = f.error_at(p), nearest = f.edge_distance(error + margin);
+  if (!(c0 >= nearest && c1 >= nearest && c2 >= nearest)) {
+    c0 = std::max(c0, nearest), c1 = std::max(c1, nearest), c2 = std::max(c2, nearest);
+    const double scale = 1.0 / (c0 + c1 + c2);
+    c0 *= scale, c1 *= scale, c2 *= scale;
+    p = blend(f, c0, c1, c2);
+  }
   const Vec3 b = to_float(Vec3d{c0, c1, c2});
 
   SurfacePoint s;
-  const Point3d p = blend(f, c0, c1, c2);
   s.p = to_float(p);
-  s.p_error = next_up(static_cast<float>(f.error(p, n)));
-  s.ng = to_float(mesh.flip_ng ? -n : n);
+  s.p_error = next_up(static_cast<float>(error));
+  s.ng = to_float(mesh.flip_ng ? -f.n : f.n);
   s.ns = s.ng;
   if (!mesh.normals.empty()) {
     s.ns = blend_normals(mesh, index, s.ng, b);
