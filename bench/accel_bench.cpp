@@ -37,7 +37,7 @@ std::vector<Ray> walk(const Geometry& g, const Accelerator& accel, size_t count)
     if (!accel.intersect(rays.back(), hit)) break;
     const SurfacePoint s = surface_point(g, hit);
     const float u = numbers.next_float(), v = numbers.next_float();
-    rays.push_back(spawn_ray(s, Frame::from_z(s.ng).to_world(sample_hemisphere_cosine({u, v * 0.999f}))));
+    rays.push_back(spawn_ray(s, Frame::from_z(s.ng).to_world(sample_hemisphere_cosine({u, v}))));
   }
   return rays;
 }
