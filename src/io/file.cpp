@@ -35,12 +35,17 @@ FileBytes read_file(const fs::path& path) {
 }
 
 PendingFile::PendingFile(const fs::path& final_path) : final_path_(final_path) {
-  // The ending stays last: image libraries choose the format by it.
+  // A link stays a link: what it points to is replaced.
+  std::error_code failed;
+  if (fs::is_symlink(final_path, failed)) {
+    const fs::path target = fs::weakly_canonical(final_path, failed);
+    if (!failed) final_path_ = target;
+  }
   constexpr int kAttempts = 1000;
-  const fs::path folder = final_path.parent_path();
+  const fs::path folder = final_path_.parent_path();
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const fs::path candidate = folder / fmt::format(".{}.{}-{}.part{}", final_path.stem().string(), ::getpid(), attempt,
-                                                    final_path.extension().string());
+    const fs::path candidate =
+        folder / fmt::format(".{}.{}-{}.part", final_path_.filename().string(), ::getpid(), attempt);
     const int descriptor = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       ::close(descriptor);
@@ -70,6 +75,7 @@ std::string PendingFile::commit() {
 std::string write_file(const fs::path& path, std::string_view bytes) {
   PendingFile pending(path);
   if (!pending.error().empty()) return pending.error();
+  errno = 0;
   std::ofstream out(pending.path(), std::ios::binary | std::ios::trunc);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();

@@ -18,7 +18,7 @@ FileBytes read_file(const std::filesystem::path& path);
 // `commit()`, it leaves nothing behind and whatever stood at the final place untouched.
 class PendingFile {
  public:
-  // Chooses an unused hidden name in the folder of `final_path` with the same ending and creates the empty file.
+  // Chooses an unused hidden name in the folder of `final_path` and creates the empty file.
   explicit PendingFile(const std::filesystem::path& final_path);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;

@@ -1,0 +1,60 @@
+// Writing images: layered float EXR for what a renderer knows, and plain RGB files for looking at. Every file is
+// written beside its place and renamed when it is complete: nobody ever finds half an image.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace etd {
+
+using MetadataValue = std::variant<std::string, int, float, double>;
+
+// A float image of named channels ("R", "direct.R", "depth.Z"), perhaps a crop of a larger one.
+struct LayeredImage {
+  int width = 0, height = 0;            // of the pixels that exist (the data window)
+  int x = 0, y = 0;                     // their top left corner in the full image
+  int full_width = 0, full_height = 0;  // of the full image (the display window), which starts at 0, 0
+  std::vector<std::string> channels;
+  std::vector<float> pixels;  // rows from the top, channels interleaved in the order of `channels`
+  std::vector<std::pair<std::string, MetadataValue>> metadata;
+
+  // The index of a channel, -1 when there is none of this name.
+  int find(std::string_view channel) const;
+  // One channel as a plane of width * height values; empty when there is none of this name.
+  std::vector<float> plane(std::string_view channel) const;
+  // The value of a metadata entry; null when there is none of this name.
+  const MetadataValue* find_metadata(std::string_view name) const;
+};
+
+// Writes an EXR: 32-bit floats, ZIP compression. Values arrive bit for bit, in any order of the channels. Returns what
+// went wrong, or an empty string.
+std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
+
+// Every channel of an EXR's first part as floats. Of the metadata those that are a string, int, float or double, which
+// includes what EXR itself requires (compression, PixelAspectRatio ...); EXR does not keep their order.
+struct LayersResult {
+  std::optional<LayeredImage> image;
+  std::string error;
+};
+LayersResult read_layers(const std::filesystem::path& path);
+
+// Writes linear Rec.709, three floats a pixel, rows from the top. By the path's ending: .png, .jpg and .jpeg hold
+// 8 bits, values times 2^exposure through the sRGB curve, clamped; .hdr (negative values become 0, no other loss of
+// range) and .pfm hold the values themselves, whatever the exposure. Returns what went wrong, or an empty string.
+std::string write_rgb(const std::filesystem::path& path, int width, int height, std::span<const float> rgb,
+                      float exposure = 0);
+
+// Whether an image could be written there: known ending, folder present and writable. Leaves an existing file as it is
+// and nothing new behind. Returns what is wrong, or an empty string.
+std::string check_output_path(const std::filesystem::path& path);
+
+// Whether the path's ending names the format that holds layers (.exr).
+bool is_layered_path(const std::filesystem::path& path);
+
+}  // namespace etd
