@@ -137,6 +137,7 @@ TEST(Params, ReaderGivesValuesOrDefaults) {
   EXPECT_EQ(reader.string("mode"), "fast");
   EXPECT_TRUE(reader.boolean("hollow"));
   EXPECT_EQ(reader.given("color"), nullptr);
+  EXPECT_EQ(reader.number("bump"), 0.0);
   EXPECT_EQ(reader.given("P"), &use.params[2]);
   EXPECT_DEATH(reader.number("nothing"), "is read but not declared");
   EXPECT_DEATH(reader.number("mode"), "another type");

@@ -182,6 +182,7 @@ void check_params(const ModelDecl& decl, const ModelUse& use, Diagnostics& diagn
                         first->loc.file < 0 ? "" : fmt::format("first given at {}line {}", where, first->loc.line));
       continue;
     }
+    if (param.malformed) continue;
     if (auto problem = find_problem(decl, *declared, param))
       diagnostics.error(problem->loc, std::move(problem->message), std::move(problem->hint));
     else if (declared->clamp)

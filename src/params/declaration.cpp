@@ -115,9 +115,9 @@ int ParamReader::integer(std::string_view name) const {
 }
 
 double ParamReader::number(std::string_view name) const {
-  const ParamDecl& decl = require(decl_, name, {ParamType::kFloat});
+  const ParamDecl& decl = require(decl_, name, {ParamType::kFloat, ParamType::kFloatTexture});
   if (decl.array) programming_error(decl_, name, "is an array but read as one number");
-  if (const Param* p = given(name)) return clamped(decl, p->numbers[0]);
+  if (const Param* p = given(name); p && p->kind == ParamKind::kFloat) return clamped(decl, p->numbers[0]);
   if (const double* value = std::get_if<double>(&decl.default_value)) return *value;
   const int* value = std::get_if<int>(&decl.default_value);
   return value ? *value : 0.0;
@@ -161,7 +161,7 @@ std::vector<int32_t> ParamReader::integers(std::string_view name) const {
 const Param* ParamReader::given(std::string_view name) const {
   const ParamDecl& decl = require(decl_, name);
   const Param* p = use_.find(name);
-  return p && !find_problem(decl_, decl, *p) ? p : nullptr;
+  return p && !p->malformed && !find_problem(decl_, decl, *p) ? p : nullptr;
 }
 
 const ParamDecl& ParamReader::declaration(std::string_view name) const { return require(decl_, name); }

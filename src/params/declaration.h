@@ -87,7 +87,7 @@ class ParamReader {
 
   bool boolean(std::string_view name) const;
   int integer(std::string_view name) const;
-  double number(std::string_view name) const;
+  double number(std::string_view name) const;  // of a float texture: when a number was given, otherwise the default
   std::string string(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;  // points, vectors, floats: components in a row
   std::vector<int32_t> integers(std::string_view name) const;

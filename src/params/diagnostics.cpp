@@ -144,11 +144,11 @@ std::string Diagnostics::format(const Diagnostic& d) const {
     if (d.loc.line > 0) out += fmt::format("{}:{}:", d.loc.line, std::max(d.loc.column, 1));
     out += " ";
   }
-  out += fmt::format("{}: {}\n", severity_label(d.severity), d.message);
+  out += fmt::format("{}: {}\n", severity_label(d.severity), printable(d.message).text);
   if (d.loc.file >= 0 && d.loc.line > 0) out += excerpt(sources_.line(d.loc.file, d.loc.line), d.loc);
   for (std::string_view rest = d.hint; !rest.empty();) {
     const size_t end = std::min(rest.find('\n'), rest.size());
-    out += fmt::format("   {}\n", rest.substr(0, end));
+    out += fmt::format("   {}\n", printable(rest.substr(0, end)).text);
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return out;

@@ -38,6 +38,8 @@ struct Param {
   std::vector<std::string> strings;
   SourceLoc loc;        // of the "type name" token
   SourceLoc value_loc;  // of the first value
+  // A value could not be read, which the reader has reported: it counts as given, and reads as the default.
+  bool malformed = false;
 };
 
 // One use of a model in a scene: which, with what parameters, and where.

@@ -17,7 +17,7 @@ struct OldName {
   Family family;
   std::string_view old_name, hint;
 };
-constexpr std::array<OldName, 23> kOldNames = {
+constexpr std::array<OldName, 29> kOldNames = {
     {{Family::kMaterial, "matte", "write \"diffuse\", and \"reflectance\" for \"Kd\""},
      {Family::kMaterial, "plastic", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
      {Family::kMaterial, "substrate", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
@@ -40,7 +40,13 @@ constexpr std::array<OldName, 23> kOldNames = {
      {Family::kLight, "exinfinite", "write \"infinite\""},
      {Family::kAreaLight, "area", "write \"diffuse\""},
      {Family::kTexture, "uv", "pbrt-v4 has none"},
-     {Family::kTexture, "checker", "write \"checkerboard\""}}};
+     {Family::kSampler, "lowdiscrepancy", "write \"sobol\""},
+     {Family::kSampler, "02sequence", "write \"sobol\""},
+     {Family::kSampler, "maxmindist", "write \"sobol\""},
+     {Family::kSampler, "random", "write \"independent\""},
+     {Family::kIntegrator, "directlighting", "write \"path\" with \"integer maxdepth\" 1"},
+     {Family::kIntegrator, "whitted", "write \"path\""},
+     {Family::kIntegrator, "ao", "write \"ambientocclusion\""}}};
 
 const UnsupportedModel* find_unsupported(Family family, std::string_view name) {
   for (const UnsupportedModel& m : unsupported_models())
@@ -82,10 +88,7 @@ std::string_view neutral_model(Family family) {
 
 std::optional<ModelUse> report_unknown(Family family, const ModelUse& use, Diagnostics& diagnostics) {
   const std::vector<std::string_view> names = known_names(family);
-  std::string hint;
-  for (const OldName& old : kOldNames)
-    if (old.family == family && old.old_name == use.model)
-      hint = fmt::format("\"{}\" is of pbrt-v3: {}\n", use.model, old.hint);
+  std::string hint = old_name_hint(family, use.model);
   if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
     hint = fmt::format("did you mean \"{}\"? ", near);
   diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
@@ -185,6 +188,12 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
   note_filtering(family, use, diagnostics);
   drop_unsupported_params(family, use, diagnostics);
   return use;
+}
+
+std::string old_name_hint(Family family, std::string_view name) {
+  for (const OldName& old : kOldNames)
+    if (old.family == family && old.old_name == name) return fmt::format("\"{}\" is of pbrt-v3: {}\n", name, old.hint);
+  return {};
 }
 
 bool may_take(Family family, std::string_view model, std::string_view param) {

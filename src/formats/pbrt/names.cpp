@@ -112,7 +112,7 @@ void Names::resolve_textures(SceneDescription& scene, Diagnostics& diagnostics) 
   const auto resolve_use = [&](Family family, ModelUse& use, bool in_float_texture = false) {
     const ModelDecl* decl = find_model(family, use.model);
     const auto undefined = [&](const Param& param) {
-      if (param.kind != ParamKind::kTexture || param.strings.size() != 1) return false;
+      if (param.kind != ParamKind::kTexture || param.malformed || param.strings.size() != 1) return false;
       const std::string& name = param.strings[0];
       const ParamDecl* declared = decl ? decl->find(param.name) : nullptr;
       const bool is_float = in_float_texture || (declared && declared->type == ParamType::kFloatTexture);

@@ -52,13 +52,13 @@ std::string drop_all_but(std::initializer_list<std::string_view> kept, std::vect
   return dropped;
 }
 
-void report_unknown_name(Parser& p, const ModelUse& use, std::string_view what,
-                         std::initializer_list<std::string_view> valid) {
+void report_unknown_name(Parser& p, const ModelUse& use, Family family, std::initializer_list<std::string_view> valid) {
   const std::vector<std::string_view> names(valid);
-  const std::string_view near = nearest_name(use.model, names);
-  p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", what, use.model),
-                      (near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near)) +
-                          fmt::format("valid: {}", fmt::join(names, ", ")));
+  std::string hint = old_name_hint(family, use.model);
+  if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
+    hint = fmt::format("did you mean \"{}\"? ", near);
+  p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
+                      hint + fmt::format("valid: {}", fmt::join(names, ", ")));
 }
 
 // A stratified sampler says how many samples it takes as a product.
@@ -85,7 +85,7 @@ void sampler(Parser& p, const Token& d) {
   const std::string name = use->model;
   const bool own = find_model(Family::kSampler, name) != nullptr;
   if (!own && !is_one_of(name, kNames)) {
-    report_unknown_name(p, *use, "sampler", kNames);
+    report_unknown_name(p, *use, Family::kSampler, kNames);
     use->model = "sobol";
     use->params.clear();
   } else if (!is_one_of(name, {"independent", "sobol"}) && !own) {
@@ -124,13 +124,13 @@ void read_path_params(Parser& p, ModelUse& use) {
 
 void integrator(Parser& p, const Token& d) {
   const std::initializer_list<std::string_view> kNames = {
-      "path",       "volpath",          "bdpt",      "mlt",     "sppm", "simplepath", "simplevolpath", "ao",
+      "path",       "volpath",          "bdpt",      "mlt",     "sppm", "simplepath", "simplevolpath",
       "randomwalk", "ambientocclusion", "lightpath", "function"};
   std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
   if (!use) return;
   const std::string name = use->model;
   if (!find_model(Family::kIntegrator, name) && !is_one_of(name, kNames)) {
-    report_unknown_name(p, *use, "integrator", kNames);
+    report_unknown_name(p, *use, Family::kIntegrator, kNames);
     use->model = "path";
     use->params.clear();
   } else if (!find_model(Family::kIntegrator, name) && name != "path") {
@@ -150,7 +150,7 @@ void accelerator(Parser& p, const Token& d) {
 }
 
 void color_space(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of a color space");
+  const auto name = p.string_argument(d, "the name of a color space");
   if (!name || name->text == "srgb") return;
   if (is_one_of(name->text, {"aces2065-1", "dci-p3", "rec2020"}))
     p.diagnostics.unsupported(name->loc, fmt::format("color space \"{}\"", name->text), "srgb");
@@ -189,15 +189,19 @@ std::string normalised_option(std::string name) {
 }
 
 void option(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of an option");
+  const auto name = p.string_argument(d, "the name of an option");
   if (!name) return;
-  std::optional<Token> value = p.tokens.next();
+  std::optional<Token> value = p.tokens.peek();
   const bool bracketed = value && value->kind == Token::Kind::kOpen;
-  if (bracketed) value = p.tokens.next();
+  if (bracketed) {
+    p.tokens.next();
+    value = p.tokens.peek();
+  }
   if (!value || value->kind == Token::Kind::kClose || find_directive(value->text)) {
     p.diagnostics.error(name->loc, fmt::format("option \"{}\" has no value", name->text));
     return p.resynchronise();
   }
+  p.tokens.next();
   if (bracketed) {
     const std::optional<Token> close = p.tokens.peek();
     if (close && close->kind == Token::Kind::kClose) p.tokens.next();

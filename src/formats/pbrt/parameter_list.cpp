@@ -119,6 +119,7 @@ class ParameterReader {
     const std::optional<Token> first = tokens_.peek();
     if (!first || first->kind == Token::Kind::kClose || (first->kind != Token::Kind::kOpen && ends_list(*first))) {
       diagnostics_.error(head.loc, fmt::format("parameter \"{}\" has no value", head.text));
+      param_.malformed = true;
       if (first && first->kind == Token::Kind::kClose) tokens_.next();
       return;
     }
@@ -137,12 +138,20 @@ class ParameterReader {
       if (usable) add(*token);
     }
     diagnostics_.error(first->loc, fmt::format("the list of \"{}\" is not closed", head.text), "a \"]\" is missing");
+    param_.malformed = true;
+    while (const std::optional<Token> token = tokens_.peek()) {
+      if ((token->kind == Token::Kind::kWord && is_directive_(token->text)) || is_declaration(*token)) break;
+      tokens_.next();
+    }
   }
 
+  // Only the first wrong value of a parameter is worth a message.
   void wrong(const Token& token, std::string_view expected) {
     const std::string_view quote = token.kind == Token::Kind::kString ? "\"" : "";
-    diagnostics_.error(token.loc, fmt::format("\"{} {}\" takes {}, not {}{}{}", kind_name(param_.kind), param_.name,
-                                              expected, quote, token.text, quote));
+    if (!param_.malformed)
+      diagnostics_.error(token.loc, fmt::format("\"{} {}\" takes {}, not {}{}{}", kind_name(param_.kind), param_.name,
+                                                expected, quote, token.text, quote));
+    param_.malformed = true;
   }
 
   void add(const Token& token) {

@@ -9,9 +9,9 @@
 
 namespace etd::pbrt {
 
-// Reads parameters until a token that begins none. What is malformed is reported; a wrong value is replaced by zero, so
-// that counts stay right, and a parameter of an unknown type is left out. `is_directive` tells where a list that is not
-// closed must end.
+// Reads parameters until a token that begins none. What is wrong is reported; a parameter with wrong values is marked
+// as malformed, and one without a known type is left out. `is_directive` tells where a list that is not closed must
+// end.
 std::vector<Param> read_parameters(TokenStream& tokens, const std::function<bool(std::string_view)>& is_directive,
                                    Diagnostics& diagnostics);
 

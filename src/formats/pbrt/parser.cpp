@@ -41,7 +41,7 @@ void Parser::read_directives() {
     const Directive* directive = token->kind == Token::Kind::kWord ? find_directive(token->text) : nullptr;
     any_directive = true;
     if (!directive) {
-      if (token->kind == Token::Kind::kWord)
+      if (token->kind == Token::Kind::kWord && !parse_number(token->text))
         diagnostics.error(token->loc, fmt::format("unknown directive {}", token->text),
                           unknown_directive_hint(token->text));
       else
@@ -73,12 +73,13 @@ void Parser::resynchronise() {
   tokens.set_quiet(false);
 }
 
-std::optional<Token> Parser::string_argument(std::string_view directive, std::string_view what) {
+std::optional<Token> Parser::string_argument(const Token& directive, std::string_view what) {
   const std::optional<Token> token = tokens.peek();
   if (token && token->kind == Token::Kind::kString) return tokens.next();
-  const std::string found = token ? shown(*token) : "the end of the file";
-  diagnostics.error(token ? token->loc : SourceLoc{},
-                    fmt::format("{} takes {} in quotes, not {}", directive, what, found));
+  if (!token || is_directive(token->text))
+    diagnostics.error(directive.loc, fmt::format("{} takes {} in quotes", directive.text, what));
+  else
+    diagnostics.error(token->loc, fmt::format("{} takes {} in quotes, not {}", directive.text, what, shown(*token)));
   resynchronise();
   return {};
 }
@@ -121,7 +122,7 @@ std::optional<std::vector<double>> Parser::number_arguments(const Token& directi
 std::vector<Param> Parser::parameters() { return read_parameters(tokens, is_directive, diagnostics); }
 
 std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::string_view what) {
-  const std::optional<Token> name = string_argument(directive.text, what);
+  const std::optional<Token> name = string_argument(directive, what);
   if (!name) return {};
   ModelUse use{name->value(), {}, name->loc};
   use.params = parameters();

@@ -27,7 +27,7 @@ class Parser {
   void resynchronise();
 
   // Arguments. Without what is asked for, they report it and return nothing; the directive then gives up.
-  std::optional<Token> string_argument(std::string_view directive, std::string_view what);
+  std::optional<Token> string_argument(const Token& directive, std::string_view what);
   // `count` finite numbers, in brackets or not.
   std::optional<std::vector<double>> number_arguments(const Token& directive, size_t count);
   std::vector<Param> parameters();

@@ -56,11 +56,11 @@ void concat_transform(Parser& p, const Token& d) {
 }
 
 void coordinate_system(Parser& p, const Token& d) {
-  if (const auto name = p.string_argument(d.text, "a name")) p.coordinate_systems[name->value()] = p.state.ctm;
+  if (const auto name = p.string_argument(d, "a name")) p.coordinate_systems[name->value()] = p.state.ctm;
 }
 
 void coord_sys_transform(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of a coordinate system");
+  const auto name = p.string_argument(d, "the name of a coordinate system");
   if (!name) return;
   const auto found = p.coordinate_systems.find(name->value());
   if (found != p.coordinate_systems.end()) {
@@ -80,7 +80,7 @@ void active_transform(Parser& p, const Token& d) {
   const bool all = which && which->is_word("All");
   const bool start = which && which->is_word("StartTime"), end = which && which->is_word("EndTime");
   if (!all && !start && !end) {
-    p.diagnostics.error(which ? which->loc : d.loc, "ActiveTransform takes All, StartTime or EndTime");
+    p.diagnostics.error(d.loc, "ActiveTransform takes All, StartTime or EndTime");
     return p.resynchronise();
   }
   p.tokens.next();

@@ -55,7 +55,7 @@ void make_named_material(Parser& p, const Token& d) {
 }
 
 void named_material(Parser& p, const Token& d) {
-  if (const auto name = p.string_argument(d.text, "the name of a material"))
+  if (const auto name = p.string_argument(d, "the name of a material"))
     p.state.material = p.names.use_material(name->value(), name->loc, p.scene);
 }
 
@@ -93,9 +93,9 @@ void area_light_source(Parser& p, const Token& d) {
 }
 
 void texture(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of the new texture");
+  const auto name = p.string_argument(d, "the name of the new texture");
   if (!name) return;
-  const auto kind = p.string_argument(d.text, "\"float\" or \"spectrum\"");
+  const auto kind = p.string_argument(d, "\"float\" or \"spectrum\"");
   if (!kind) return;
   std::optional<ModelUse> use = p.model_arguments(d, "the name of a texture model");
   if (!use) return;
@@ -135,7 +135,7 @@ void make_named_medium(Parser& p, const Token& d) {
 }
 
 void medium_interface(Parser& p, const Token& d) {
-  const auto inside = p.string_argument(d.text, "the name of a medium");
+  const auto inside = p.string_argument(d, "the name of a medium");
   if (!inside) return;
   std::optional<Token> outside = p.tokens.peek();
   if (outside && outside->kind == Token::Kind::kString)
@@ -152,7 +152,7 @@ void medium_interface(Parser& p, const Token& d) {
 }
 
 void object_begin(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of the new object");
+  const auto name = p.string_argument(d, "the name of the new object");
   if (!name) return;
   if (p.object >= 0)
     p.diagnostics.error(d.loc, "ObjectBegin inside of an object",
@@ -169,20 +169,20 @@ void object_end(Parser& p, const Token& d) {
 }
 
 void object_instance(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of an object");
+  const auto name = p.string_argument(d, "the name of an object");
   if (!name) return;
   if (const auto to_world = p.placement(d.loc, "instance"))
     p.names.use_object(name->value(), name->loc, *to_world, p.object);
 }
 
 void include(Parser& p, const Token& d) {
-  if (const auto name = p.string_argument(d.text, "the name of a file"))
+  if (const auto name = p.string_argument(d, "the name of a file"))
     p.tokens.push_included(name->value(), name->loc, false);
 }
 
 // An imported file starts with the state of here and cannot change it.
 void import(Parser& p, const Token& d) {
-  const auto name = p.string_argument(d.text, "the name of a file");
+  const auto name = p.string_argument(d, "the name of a file");
   if (!name || !p.tokens.push_included(name->value(), name->loc, true)) return;
   const GraphicsState outside = p.state;
   const size_t outside_first = std::exchange(p.first_block, p.blocks.size());
