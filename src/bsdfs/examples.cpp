@@ -32,9 +32,9 @@ std::vector<BsdfExample> make_examples() {
       {"smooth_conductor(aluminium)", Bsdf(SmoothConductor{aluminium.eta, aluminium.k})},
   };
 
-  const auto rough = [&list](const Metal& m, std::string alpha, float ax, float ay) {
-    list.push_back(
-        {std::string("rough_conductor(") + m.name + ", " + alpha + ")", Bsdf(RoughConductor{m.eta, m.k, {ax, ay}})});
+  const auto rough = [&list](const Metal& m, const char* alpha, float ax, float ay, float min_cos = 0.0f) {
+    const RoughConductor closure{m.eta, m.k, {ax, ay}};
+    list.push_back({std::string("rough_conductor(") + m.name + ", " + alpha + ")", Bsdf(closure), false, min_cos});
   };
   rough(mirror, "0.5", 0.5f, 0.5f);
   rough(copper, "1", 1.0f, 1.0f);
@@ -42,10 +42,10 @@ std::vector<BsdfExample> make_examples() {
   rough(aluminium, "0.25", 0.25f, 0.25f);
   rough(aluminium, "0.1", 0.1f, 0.1f);
   rough(copper, "0.01", 0.01f, 0.01f);
-  rough(copper, "0.001", 0.001f, 0.001f);
+  rough(copper, "0.001", 0.001f, 0.001f, 0.01f);
   rough(copper, "0.1 x 0.6", 0.1f, 0.6f);
   rough(aluminium, "1 x 0.05", 1.0f, 0.05f);
-  rough(copper, "0.0001 x 0.3", 0.0001f, 0.3f);
+  rough(copper, "0.0001 x 0.3", 0.0001f, 0.3f, 0.01f);
 
   const auto glass = [&list](std::string name, float eta) {
     list.push_back({"smooth_dielectric(" + name + ")", Bsdf(SmoothDielectric{eta}), true});

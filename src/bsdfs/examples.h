@@ -13,6 +13,9 @@ struct BsdfExample {
   std::string name;  // closure and parameters; unique
   Bsdf bsdf;
   bool lossless = false;  // with these parameters all importance that arrives leaves again: a furnace shows 1
+  // Histograms are compared only for |cos wo| above this: at grazing incidence a sharp lobe becomes so narrow that
+  // directions in float no longer resolve it.
+  float min_cos = 0;
 };
 
 // The same list at every call, in a fixed order.

@@ -1,0 +1,56 @@
+// The parts of the battery over closures, one file each: values at single directions, delta lobes, histograms. Only
+// battery_bsdf.cpp calls them.
+#pragma once
+
+#include <vector>
+
+#include "verify/battery_bsdf.h"
+
+namespace etd::bsdf_checks {
+
+// Directions on both sides that a check must cover: perpendicular, oblique at several azimuths, grazing.
+const std::vector<Vec3>& test_directions();
+std::string describe(Vec3 wo, TransportMode mode, Lobe sides = kBothSides);
+
+// The largest deviation seen, and where.
+class Worst {
+ public:
+  Worst(const ScatterModel& model, std::string name, double tolerance);
+  // `where` is called only for a new maximum. NaN is the worst of all.
+  template <class F>
+  void add(double deviation, F&& where) {
+    if (!(deviation <= worst_)) worst_ = std::isnan(deviation) ? HUGE_VAL : deviation, result_.text = where();
+  }
+  // a and b relative to the larger of them.
+  template <class F>
+  void add_relative(double a, double b, F&& where) {
+    const double scale = std::max(std::abs(a), std::abs(b));
+    add(scale > 0.0 ? std::abs(a - b) / scale : a + b, where);
+  }
+  CheckResult result() const;
+
+ private:
+  CheckResult result_;
+  double worst_ = 0, tolerance_;
+};
+
+using Results = std::vector<CheckResult>;
+// Finite and non-negative for the most awkward directions and random numbers.
+void check_finite(const ScatterModel& model, Results& out);
+// weight pdf = eval_cos, sample().pdf = pdf(), unit wi, the right sides and lobes; reciprocity and adjointness.
+void check_pointwise(const ScatterModel& model, uint64_t seed, Results& out);
+// Directions (mirror, Snell), probabilities, reciprocity and energy of delta lobes.
+void check_delta(const ScatterModel& model, Results& out);
+// Samples against the density and the integrals of eval_cos over the sphere; energy.
+void check_histograms(const ScatterModel& model, const BsdfBatteryOptions& options, Results& out);
+
+// The delta lobes that wo scatters into, each with the share of samples that took it. They are found by walking u.z
+// through [0, 1) in `kDeltaSteps` steps, so shares are exact up to that.
+struct DeltaLobe {
+  BsdfSample sample;
+  double share = 0;
+};
+inline constexpr int kDeltaSteps = 2000;
+std::vector<DeltaLobe> find_delta_lobes(const ScatterModel& model, Vec3 wo, TransportMode mode, Lobe sides);
+
+}  // namespace etd::bsdf_checks

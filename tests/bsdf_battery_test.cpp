@@ -1,0 +1,73 @@
+#include "verify/battery_bsdf.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bsdfs/conductor.h"
+#include "bsdfs/dielectric.h"
+#include "bsdfs/lambert.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ETENDUE_SLOW_BUILD 1
+#endif
+#endif
+
+namespace etd {
+namespace {
+
+#ifdef ETENDUE_SLOW_BUILD
+constexpr size_t kSamples = 10000;
+#else
+constexpr size_t kSamples = 100000;
+#endif
+
+// One false alarm in 10^4 runs of the whole battery.
+BsdfBatteryOptions options_of_seed(uint64_t seed) {
+  return {kSamples, seed, 1e-4 / static_cast<double>(bsdf_examples().size())};
+}
+
+class BsdfBattery : public testing::TestWithParam<size_t> {};
+
+TEST_P(BsdfBattery, Passes) {
+  for (const CheckResult& r : check_bsdf(scatter_model(bsdf_examples()[GetParam()]), options_of_seed(1)))
+    EXPECT_TRUE(r.passed) << to_string(r);
+}
+
+std::string test_name(const testing::TestParamInfo<size_t>& info) {
+  std::string name = bsdf_examples()[info.param].name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, BsdfBattery, testing::Range(size_t{0}, bsdf_examples().size()), test_name);
+
+TEST(BsdfExamples, CoverEveryClosure) {
+  std::set<uint32_t> kinds;
+  for (const BsdfExample& e : bsdf_examples()) kinds.insert(e.bsdf.kind());
+  EXPECT_EQ(kinds.size(), Bsdf::kind_count());
+}
+
+// The level is right when no seed fails; run by hand with --gtest_also_run_disabled_tests.
+TEST(BsdfBatterySeeds, DISABLED_NoFalseAlarmInAHundred) {
+  std::vector<double> p_values;
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    for (const BsdfExample& e : bsdf_examples()) {
+      for (const CheckResult& r : check_bsdf(scatter_model(e), options_of_seed(seed))) {
+        EXPECT_TRUE(r.passed) << "seed " << seed << ": " << to_string(r);
+        if (r.p_value && *r.p_value < 1.0) p_values.push_back(*r.p_value);
+      }
+    }
+  }
+  for (double level : {0.1, 0.01, 1e-3, 1e-4}) {
+    const auto below = std::count_if(p_values.begin(), p_values.end(), [&](double p) { return p < level; });
+    std::printf("p < %g: %g of %zu\n", level, static_cast<double>(below) / static_cast<double>(p_values.size()),
+                p_values.size());
+  }
+}
+
+}  // namespace
+}  // namespace etd
