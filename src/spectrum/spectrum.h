@@ -48,6 +48,15 @@ struct alignas(16) Spectrum {
 
 ETD_FN float max_value(const Spectrum& s) { return std::max(s.v[0], std::max(s.v[1], s.v[2])); }
 ETD_FN float mean_value(const Spectrum& s) { return (s.v[0] + s.v[1] + s.v[2]) * (1.0f / 3.0f); }
+// Lane by lane.
+ETD_FN Spectrum max(Spectrum s, float lo) {
+  for (float& v : s.v) v = std::max(v, lo);
+  return s;
+}
+ETD_FN Spectrum clamp(Spectrum s, float lo, float hi) {
+  for (float& v : s.v) v = clamp(v, lo, hi);
+  return s;
+}
 ETD_FN bool is_black(const Spectrum& s) { return s.v[0] == 0.0f && s.v[1] == 0.0f && s.v[2] == 0.0f; }
 ETD_FN bool is_finite(const Spectrum& s) {
   return std::isfinite(s.v[0]) && std::isfinite(s.v[1]) && std::isfinite(s.v[2]);

@@ -1,0 +1,34 @@
+// Chooses one light for next-event estimation: finite lights in proportion to the luminance of their power, infinite
+// ones with a fixed share, because their power over a scene's surfaces says little about what a point sees of them.
+#pragma once
+
+#include <vector>
+
+#include "core/distribution.h"
+#include "lights/light.h"
+
+namespace etd {
+
+class PowerLightSampler {
+ public:
+  // Share of the samples that infinite lights get together when there are finite ones too.
+  static constexpr double kInfiniteShare = 0.5;
+
+  struct Choice {
+    uint32_t light;
+    float probability;
+  };
+
+  PowerLightSampler() = default;
+  explicit PowerLightSampler(std::span<const Light> lights);
+
+  // Nothing when no light emits.
+  std::optional<Choice> sample(float u) const;
+  float probability(uint32_t light) const { return table_.probability(light); }
+
+ private:
+  AliasTable table_;
+  bool any_ = false;
+};
+
+}  // namespace etd

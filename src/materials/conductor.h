@@ -1,0 +1,35 @@
+// Metals, smooth or rough.
+#pragma once
+
+#include "bsdfs/conductor.h"
+#include "bsdfs/roughness.h"
+#include "materials/material.h"
+
+namespace etd {
+
+struct ConductorMaterial {
+  SpectrumSource eta, k;       // or, when `by_reflectance`,
+  SpectrumSource reflectance;  // at normal incidence
+  FloatSource uroughness, vroughness;
+  bool by_reflectance = false, remap = true;
+
+  static const ModelDecl& decl();
+  static ConductorMaterial create(const ParamReader& p, TextureBuilder& b);
+
+  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
+    Spectrum n(1.0f), kappa;
+    if (by_reflectance) {
+      // With eta = 1 the normal reflectance is k^2 / (4 + k^2).
+      const Spectrum r = clamp(textures.eval(reflectance, at), 0.0f, 0.9999f);
+      for (int i = 0; i < Spectrum::kLanes; ++i) kappa.v[i] = 2.0f * std::sqrt(r[i] / (1.0f - r[i]));
+    } else {
+      n = textures.eval(eta, at);
+      kappa = textures.eval(k, at);
+    }
+    const auto alpha = microfacet_alpha(textures.eval(uroughness, at), textures.eval(vroughness, at), remap);
+    if (!alpha) return Bsdf(SmoothConductor{n, kappa});
+    return Bsdf(RoughConductor{n, kappa, {alpha->x, alpha->y}});
+  }
+};
+
+}  // namespace etd

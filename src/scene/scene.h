@@ -1,0 +1,62 @@
+// The immutable scene: flat arrays that every thread may read. Built by compile().
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "accel/accelerator.h"
+#include "accel/surface.h"
+#include "cameras/camera.h"
+#include "core/bounds.h"
+#include "filters/filter.h"
+#include "light_sampling/power_light_sampler.h"
+#include "materials/material.h"
+
+namespace etd {
+
+// What a mesh or sphere is made of.
+struct SurfaceBinding {
+  uint32_t material = 0;
+  // Light of the sphere or of the mesh's first triangle (the others follow); kNoId: does not emit.
+  uint32_t first_light = kNoId;
+};
+
+// A hit, ready for shading.
+struct SurfaceHit {
+  SurfacePoint point;
+  const Material* material = nullptr;
+  uint32_t light = kNoId;
+};
+
+// What `etendue info` tells beside the sizes of the arrays.
+struct SceneSummary {
+  std::map<std::string, size_t> shapes, materials, textures, lights;  // by model, as the scene names them
+  size_t triangles = 0;                                               // in memory
+  size_t instanced_triangles = 0;                                     // as rays see them
+  Bounds3 bounds;                                                     // of the world, not recentred
+};
+
+class Scene {
+ public:
+  bool intersect(const Ray& ray, Hit& hit) const { return accelerator->intersect(ray, hit); }
+  bool occluded(const Ray& ray) const { return accelerator->occluded(ray); }
+  SurfaceHit surface(const Hit& hit) const;
+  size_t geometry_bytes() const;
+
+  Geometry geometry;
+  std::vector<SurfaceBinding> mesh_bindings, sphere_bindings;  // one per mesh and sphere of `geometry`
+  std::vector<Material> materials;
+  TextureTable textures;
+  std::vector<Light> lights;
+  std::vector<uint32_t> infinite_lights;
+  PowerLightSampler light_sampler;
+  Camera camera;
+  Filter filter;
+  std::unique_ptr<Accelerator> accelerator;
+  Vec3d origin;  // world position that was moved to (0, 0, 0)
+  SceneSummary summary;
+};
+
+}  // namespace etd

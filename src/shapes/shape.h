@@ -1,0 +1,25 @@
+// The family of shapes as scenes name them: each turns its parameters into a mesh or a sphere.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "io/mesh.h"
+#include "params/declaration.h"
+
+namespace etd {
+
+// What a shape is before its transform.
+struct ShapeGeometry {
+  std::optional<MeshData> mesh;  // or
+  double sphere_radius = 0;      // a sphere around the origin
+};
+
+std::span<const ModelDecl* const> shape_models();
+// Of a checked use; problems are reported, and nothing comes back when there are any. `folder` is where relative file
+// names start.
+std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder,
+                                        Diagnostics& diagnostics);
+
+}  // namespace etd

@@ -1,0 +1,27 @@
+// An image over uv: (0, 0) is its lower left corner. Bilinear between texel centres on the finest level.
+#pragma once
+
+#include "textures/resolve.h"
+#include "textures/uv_mapping.h"
+
+namespace etd {
+
+struct ImageMapTexture {
+  enum class Wrap : uint8_t { kRepeat, kBlack, kClamp, kOctahedralSphere };
+
+  int32_t image = -1;
+  UvMapping mapping;
+  float scale = 1;
+  bool invert = false, nearest = false, average = false;  // average: a float texture of a colour image
+  Wrap wrap = Wrap::kRepeat;
+
+  static const ModelDecl& decl();
+  static ImageMapTexture create(const ParamReader& p, TextureBuilder& b, bool is_float);
+
+  Spectrum eval(const TexCoord& at, const TextureTable& table) const;
+
+ private:
+  Spectrum texel(const Image& img, int x, int y) const;
+};
+
+}  // namespace etd

@@ -1,0 +1,43 @@
+// Turns declared parameters into values and references to textures: the part of building a scene that materials, lights
+// and textures share.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "params/declaration.h"
+#include "textures/texture.h"
+
+namespace etd {
+
+// The RGB value of a spectrum parameter (rgb, float, spectrum, blackbody), or of its declared default, clamped where
+// the declaration says so. Kinds that have no RGB meaning yet are reported as unsupported.
+Spectrum spectrum_value(const ParamReader& params, std::string_view name);
+
+// The textures built so far by name, and the means to build more.
+class TextureBuilder {
+ public:
+  TextureBuilder(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
+
+  // Builds a checked use, whose children must have been built before.
+  void add(const std::string& name, bool is_float, const ModelUse& use, Diagnostics& diagnostics);
+
+  SpectrumSource spectrum(const ParamReader& params, std::string_view name) const;
+  FloatSource number(const ParamReader& params, std::string_view name) const;
+  // Index of an image of the table, read once per file and encoding; -1 and an error when it can't be read.
+  int32_t image(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
+
+ private:
+  int32_t find(const Param& reference, bool is_float, Diagnostics& diagnostics) const;
+
+  TextureTable& table_;
+  std::filesystem::path folder_;
+  std::map<std::pair<std::string, bool>, int32_t> names_;
+  std::map<std::pair<std::string, std::string>, int32_t> images_;
+};
+
+std::span<const ModelDecl* const> texture_models();
+
+}  // namespace etd
