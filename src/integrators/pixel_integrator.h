@@ -1,0 +1,41 @@
+// The common part of integrators that estimate each pixel from paths that start at the camera: a work item is a tile,
+// a pixel's samples are summed in registers and reach the film once per pass.
+#pragma once
+
+#include "core/bounds.h"
+#include "integrators/integrator.h"
+#include "samplers/sampler.h"
+
+namespace etd {
+
+// What an integrator needs beside its own parameters.
+struct IntegratorContext {
+  SamplerKind sampler = SamplerKind::kSobol;
+  uint64_t seed = 0;
+  int width = 0;  // of the full image: names the streams
+  PixelBounds crop;
+  int tile_size = 16;
+  uint32_t replicates = 2;
+};
+
+class PixelIntegrator : public Integrator {
+ public:
+  explicit PixelIntegrator(const IntegratorContext& context) : context_(context) {}
+
+  IntegratorTraits traits() const override { return {}; }
+  size_t work_items(const Pass& pass) const override;
+  void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const override;
+
+  // One sample of one pixel (full-image coordinates), of index `index` in replicate `replicate`: any sample of an image
+  // can be drawn alone.
+  PixelSample sample(int x, int y, uint32_t replicate, uint32_t index) const;
+
+ protected:
+  // Sampler dimension 0 is the next to draw.
+  virtual PixelSample sample_pixel(int x, int y, Sampler& sampler) const = 0;
+
+ private:
+  IntegratorContext context_;
+};
+
+}  // namespace etd

@@ -1,0 +1,109 @@
+#include "scene/compile.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "lights/constant_infinite.h"
+#include "scene/compile_geometry.h"
+#include "scene/registry.h"
+
+namespace etd {
+
+namespace {
+
+void check(Family family, const ModelUse& use, Diagnostics& diagnostics) {
+  if (const ModelDecl* decl = find_model(family, use.model)) check_params(*decl, use, diagnostics);
+}
+
+// Builds textures after the textures they refer to, and rejects cycles.
+class TextureOrder {
+ public:
+  TextureOrder(const SceneDescription& description, TextureBuilder& builder, Diagnostics& diagnostics)
+      : description_(description), builder_(builder), diagnostics_(diagnostics), state_(description.textures.size()) {
+    for (size_t i = 0; i < description.textures.size(); ++i)
+      names_[{description.textures[i].name, description.textures[i].is_float}] = i;
+    for (size_t i = 0; i < description.textures.size(); ++i) build(i);
+  }
+
+ private:
+  enum class State { kNew, kBuilding, kBuilt };
+
+  void build(size_t i) {
+    const TextureDesc& t = description_.textures[i];
+    if (state_[i] == State::kBuilt) return;
+    if (state_[i] == State::kBuilding) {
+      diagnostics_.error(t.use.loc, fmt::format("texture \"{}\" refers to itself", t.name));
+      return;
+    }
+    state_[i] = State::kBuilding;
+    check(Family::kTexture, t.use, diagnostics_);
+    for (const Param& p : t.use.params)
+      if (p.kind == ParamKind::kTexture && !p.strings.empty())
+        for (const bool is_float : {true, false})
+          if (const auto it = names_.find({p.strings[0], is_float}); it != names_.end()) build(it->second);
+    builder_.add(t.name, t.is_float, t.use, diagnostics_);
+    state_[i] = State::kBuilt;
+  }
+
+  const SceneDescription& description_;
+  TextureBuilder& builder_;
+  Diagnostics& diagnostics_;
+  std::vector<State> state_;
+  std::map<std::pair<std::string, bool>, size_t> names_;
+};
+
+std::vector<uint32_t> compile_materials(const SceneDescription& description, TextureBuilder& textures, Scene& scene,
+                                        Diagnostics& diagnostics) {
+  std::vector<uint32_t> material_of{0};
+  scene.materials.push_back(*make_material({"diffuse", {}, {}}, textures, diagnostics));
+  for (const MaterialDesc& m : description.materials) {
+    check(Family::kMaterial, m.use, diagnostics);
+    ++scene.summary.materials[m.use.model];
+    if (const auto material = make_material(m.use, textures, diagnostics)) {
+      material_of.push_back(static_cast<uint32_t>(scene.materials.size()));
+      scene.materials.push_back(*material);
+    } else {
+      material_of.push_back(kNoId);
+    }
+  }
+  return material_of;
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
+                               Diagnostics& diagnostics) {
+  auto scene = std::make_unique<Scene>();
+  TextureBuilder textures(scene->textures, description.folder);
+  const TextureOrder build_textures(description, textures, diagnostics);
+  for (const TextureDesc& t : description.textures) ++scene->summary.textures[t.use.model];
+  const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
+  for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
+  compile_geometry(description, material_of, *scene, diagnostics);
+
+  for (const LightDesc& light : description.lights) {
+    check(Family::kLight, light.use, diagnostics);
+    if (light.use.model != "infinite") continue;  // the readers have reported what is not there
+    scene->infinite_lights.push_back(static_cast<uint32_t>(scene->lights.size()));
+    scene->lights.push_back(
+        Light(ConstantInfiniteLight::create({ConstantInfiniteLight::decl(), light.use, diagnostics})));
+    ++scene->summary.lights[light.use.model];
+  }
+
+  check(Family::kCamera, description.camera, diagnostics);
+  check(Family::kFilter, description.filter, diagnostics);
+  if (description.camera_to_world.is_singular())
+    diagnostics.error(description.camera.loc, "the camera's transform is singular");
+  const Transform to_recentred = Transform::translate(-scene->origin);
+  scene->camera = make_camera(description.camera,
+                              {to_recentred * description.camera_to_world, options.width, options.height}, diagnostics);
+  scene->filter = make_filter(description.filter, diagnostics);
+  if (diagnostics.has_errors()) return nullptr;
+
+  scene->light_sampler = PowerLightSampler(scene->lights);
+  scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
+  return scene;
+}
+
+}  // namespace etd

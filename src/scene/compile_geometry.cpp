@@ -1,0 +1,264 @@
+#include "scene/compile_geometry.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "lights/diffuse_area.h"
+#include "scene/registry.h"
+#include "shapes/shape.h"
+
+namespace etd {
+
+namespace {
+
+// A shape of the description under the transform to the space in which rays will meet it.
+struct PlacedShape {
+  const ShapeDesc* shape;
+  Transform to_space;
+};
+
+// An object that several instances share.
+struct PlacedInstance {
+  uint32_t object;
+  Transform to_world;
+};
+
+class GeometryCompiler {
+ public:
+  GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
+                   Diagnostics& diagnostics)
+      : description_(description), material_of_(material_of), scene_(scene), diagnostics_(diagnostics) {}
+
+  void run() {
+    check_shapes();
+    place();
+    load();
+    if (diagnostics_.has_errors()) return;
+    scene_.summary.bounds = world_bounds();
+    const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
+    scene_.origin = {center.x, center.y, center.z};
+    reserve();
+    for (const PlacedShape& s : world_) add(s, scene_.origin, scene_.geometry.groups[0]);
+    add_groups();
+    add_lights();
+  }
+
+ private:
+  // Every shape once, whether it is used or not: a mistake in an unused object is a mistake too.
+  void check_shapes() {
+    const auto check = [&](const ShapeDesc& s) {
+      if (const ModelDecl* decl = find_model(Family::kShape, s.use.model)) check_params(*decl, s.use, diagnostics_);
+      if (s.to_world.is_singular())
+        diagnostics_.error(s.use.loc, fmt::format("the transform of this {} is singular", s.use.model));
+      if (s.area_light >= 0 && is_interface(s))
+        diagnostics_.error(s.use.loc, "a shape of material \"interface\" can't be an area light",
+                           "give it a material, such as a black diffuse one");
+    };
+    for (const ShapeDesc& s : description_.shapes) check(s);
+    for (const ObjectDesc& o : description_.objects)
+      for (const ShapeDesc& s : o.shapes) check(s);
+  }
+
+  bool is_interface(const ShapeDesc& s) const { return material_of_[static_cast<size_t>(s.material + 1)] == kNoId; }
+
+  // Flattens: an object that one instance uses, or that holds lights, becomes world shapes; others are shared.
+  void place() {
+    for (const ShapeDesc& s : description_.shapes) world_.push_back({&s, s.to_world});
+    std::vector<std::vector<Transform>> placed(description_.objects.size());
+    for (const InstanceDesc& i : description_.instances) placed[static_cast<size_t>(i.object)].push_back(i.to_world);
+    // Objects only contain earlier ones, so going backwards every placement is known before its object is reached.
+    for (size_t o = description_.objects.size(); o-- > 0;) {
+      const bool flatten = placed[o].size() == 1 || emits(description_.objects[o]);
+      for (const Transform& t : placed[o]) {
+        if (!flatten) {
+          shared_.push_back({static_cast<uint32_t>(o), t});
+          continue;
+        }
+        for (const ShapeDesc& s : description_.objects[o].shapes) world_.push_back({&s, t * s.to_world});
+        for (const InstanceDesc& i : description_.objects[o].instances)
+          placed[static_cast<size_t>(i.object)].push_back(t * i.to_world);
+      }
+      if (!flatten && !placed[o].empty())
+        expand(description_.objects[o], Transform(), objects_[static_cast<uint32_t>(o)]);
+    }
+  }
+
+  bool emits(const ObjectDesc& object) const {
+    for (const ShapeDesc& s : object.shapes)
+      if (s.area_light >= 0) return true;
+    for (const InstanceDesc& i : object.instances)
+      if (emits(description_.objects[static_cast<size_t>(i.object)])) return true;
+    return false;
+  }
+
+  // All shapes of an object and of the objects in it.
+  void expand(const ObjectDesc& object, const Transform& t, std::vector<PlacedShape>& out) const {
+    for (const ShapeDesc& s : object.shapes) out.push_back({&s, t * s.to_world});
+    for (const InstanceDesc& i : object.instances)
+      expand(description_.objects[static_cast<size_t>(i.object)], t * i.to_world, out);
+  }
+
+  void load() {
+    const auto load_one = [&](const ShapeDesc& s) {
+      if (!find_model(Family::kShape, s.use.model) || is_interface(s)) return;
+      if (auto geometry = make_shape(s.use, description_.folder, diagnostics_)) loaded_[&s] = std::move(*geometry);
+    };
+    for (const ShapeDesc& s : description_.shapes) load_one(s);
+    for (const ObjectDesc& o : description_.objects)
+      for (const ShapeDesc& s : o.shapes) load_one(s);
+  }
+
+  // Corners of the shape in its space: mesh vertices, or those of the box around a sphere (exact for its faces).
+  void extend(Bounds3& bounds, const PlacedShape& placed) const {
+    const auto it = loaded_.find(placed.shape);
+    if (it == loaded_.end()) return;
+    if (it->second.mesh) {
+      for (const Point3d& p : it->second.mesh->positions) bounds.extend(placed.to_space.point(p));
+      return;
+    }
+    const Point3d c = placed.to_space.point({0, 0, 0});
+    const Mat4& m = placed.to_space.matrix();
+    Vec3d half;
+    for (size_t i = 0; i < 3; ++i)
+      half[static_cast<int>(i)] = it->second.sphere_radius * length(Vec3d{m.m[i][0], m.m[i][1], m.m[i][2]});
+    bounds.extend(c + half);
+    bounds.extend(c - half);
+  }
+
+  Bounds3 world_bounds() const {
+    Bounds3 world;
+    for (const PlacedShape& s : world_) extend(world, s);
+    for (const auto& [object, shapes] : objects_) {
+      Bounds3 local;
+      for (const PlacedShape& s : shapes) extend(local, s);
+      if (local.empty()) continue;
+      for (const PlacedInstance& i : shared_)
+        for (int corner = 0; i.object == object && corner < 8; ++corner)
+          world.extend(i.to_world.point({corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
+                                         corner & 4 ? local.hi.z : local.lo.z}));
+    }
+    return world;
+  }
+
+  // Lights and the accelerator keep pointers into these arrays, so they must not grow later.
+  void reserve() {
+    size_t count = world_.size();
+    for (const auto& [object, shapes] : objects_) count += shapes.size();
+    scene_.geometry.meshes.reserve(count);
+    scene_.geometry.spheres.reserve(count);
+  }
+
+  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group) {
+    const auto it = loaded_.find(placed.shape);
+    if (it == loaded_.end()) return;
+    const Transform to_space = Transform::translate(-origin) * placed.to_space;
+    const SurfaceBinding binding{material_of_[static_cast<size_t>(placed.shape->material + 1)], kNoId};
+    ++scene_.summary.shapes[placed.shape->use.model];
+    if (it->second.mesh) {
+      group.meshes.push_back(static_cast<uint32_t>(scene_.geometry.meshes.size()));
+      scene_.geometry.meshes.push_back(make_mesh(*it->second.mesh, to_space, placed.shape->reverse_orientation));
+      scene_.mesh_bindings.push_back(binding);
+      scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
+    } else {
+      const double r = it->second.sphere_radius;
+      const Transform t = to_space * Transform::scale({r, r, r});
+      scene_.geometry.spheres.push_back(
+          {Affine(t.matrix()), Affine(t.inverse_matrix()), placed.shape->reverse_orientation});
+      scene_.sphere_bindings.push_back(binding);
+      ++group.sphere_end;
+    }
+    if (&group == &scene_.geometry.groups[0] && placed.shape->area_light >= 0)
+      emitters_.push_back({placed.shape, it->second.mesh.has_value(),
+                           static_cast<uint32_t>(it->second.mesh ? scene_.geometry.meshes.size() - 1
+                                                                 : scene_.geometry.spheres.size() - 1)});
+  }
+
+  Mesh make_mesh(const MeshData& data, const Transform& t, bool reverse) const {
+    Mesh mesh;
+    mesh.positions.reserve(data.positions.size() + 1);  // the accelerator may read a little beyond the last vertex
+    for (const Point3d& p : data.positions) mesh.positions.push_back(to_float(t.point(p)));
+    mesh.normals.reserve(data.normals.size());
+    for (const Vec3& n : data.normals) {
+      const Vec3d m = t.normal(to_double(reverse ? -n : n));
+      const double l = length(m);
+      mesh.normals.push_back(l > 0 && std::isfinite(l) ? to_float(m * (1.0 / l)) : Vec3{});
+    }
+    mesh.uvs = data.uvs;
+    mesh.triangles = data.triangles;
+    mesh.flip_ng = reverse != (t.determinant3() < 0);
+    return mesh;
+  }
+
+  void add_groups() {
+    size_t world_triangles = scene_.summary.triangles;
+    std::map<uint32_t, uint32_t> group_of;
+    std::map<uint32_t, Vec3d> origin_of;
+    std::map<uint32_t, size_t> triangles_of;
+    for (const auto& [object, shapes] : objects_) {
+      Bounds3 local;
+      for (const PlacedShape& s : shapes) extend(local, s);
+      const Point3d c = local.empty() ? Point3d{} : local.center();
+      origin_of[object] = {c.x, c.y, c.z};
+      GeometryGroup group;
+      group.sphere_begin = group.sphere_end = static_cast<uint32_t>(scene_.geometry.spheres.size());
+      const size_t before = scene_.summary.triangles;
+      for (const PlacedShape& s : shapes) add(s, origin_of[object], group);
+      triangles_of[object] = scene_.summary.triangles - before;
+      group_of[object] = static_cast<uint32_t>(scene_.geometry.groups.size());
+      scene_.geometry.groups.push_back(std::move(group));
+    }
+    for (const PlacedInstance& i : shared_) {
+      const Transform t = Transform::translate(-scene_.origin) * i.to_world * Transform::translate(origin_of[i.object]);
+      scene_.geometry.instances.push_back({group_of[i.object], Affine(t.matrix()), Affine(t.inverse_matrix())});
+      world_triangles += triangles_of[i.object];
+    }
+    scene_.summary.instanced_triangles = world_triangles;
+  }
+
+  struct Emitter {
+    const ShapeDesc* shape;
+    bool is_mesh;
+    uint32_t index;  // of the mesh or sphere
+  };
+
+  void add_lights() {
+    for (const Emitter& e : emitters_) {
+      const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
+      const ParamReader p(diffuse_area_decl(), use, diagnostics_);
+      const Spectrum radiance = spectrum_value(p, "L") * static_cast<float>(p.number("scale"));
+      const bool two_sided = p.boolean("twosided");
+      SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.sphere_bindings[e.index];
+      binding.first_light = static_cast<uint32_t>(scene_.lights.size());
+      ++scene_.summary.lights[use.model + " area light"];
+      if (e.is_mesh) {
+        const Mesh& mesh = scene_.geometry.meshes[e.index];
+        for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+          scene_.lights.push_back(
+              Light(DiffuseAreaLight<TriangleSurface>{radiance, TriangleSurface(mesh, t), two_sided}));
+      } else {
+        const Sphere& sphere = scene_.geometry.spheres[e.index];
+        scene_.lights.push_back(Light(DiffuseAreaLight<SphereSurface>{radiance, SphereSurface(sphere), two_sided}));
+      }
+    }
+  }
+
+  const SceneDescription& description_;
+  const std::vector<uint32_t>& material_of_;
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+  std::vector<PlacedShape> world_;
+  std::vector<PlacedInstance> shared_;
+  std::map<uint32_t, std::vector<PlacedShape>> objects_;  // the shared ones, expanded
+  std::map<const ShapeDesc*, ShapeGeometry> loaded_;
+  std::vector<Emitter> emitters_;
+};
+
+}  // namespace
+
+void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
+                      Diagnostics& diagnostics) {
+  GeometryCompiler(description, material_of, scene, diagnostics).run();
+}
+
+}  // namespace etd
