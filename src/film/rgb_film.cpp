@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace etd {
@@ -66,6 +67,11 @@ const ModelDecl& rgb_film_decl() {
            .doc = "Name of the image that is written to the current folder when the command line names none."},
       }};
   return decl;
+}
+
+std::span<const ModelDecl* const> film_models() {
+  static const std::array<const ModelDecl*, 1> all{&rgb_film_decl()};
+  return all;
 }
 
 RgbFilm read_rgb_film(const ParamReader& reader, std::optional<std::pair<int, int>> size) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,7 @@ struct RgbFilm {
 };
 
 const ModelDecl& rgb_film_decl();
+std::span<const ModelDecl* const> film_models();
 
 // `size` replaces the resolution: the crop window scales with it, and pixel bounds are scaled outward. Bounds that
 // leave nothing of the image are an error; then the crop is the whole image.
