@@ -13,16 +13,26 @@ namespace etd {
 
 std::span<const ModelDecl* const> models(Family family) {
   switch (family) {
-    case Family::kShape: return shape_models();
-    case Family::kMaterial: return material_models();
-    case Family::kTexture: return texture_models();
-    case Family::kLight: return light_models();
-    case Family::kAreaLight: return area_light_models();
-    case Family::kCamera: return camera_models();
-    case Family::kFilter: return filter_models();
-    case Family::kSampler: return sampler_models();
-    case Family::kFilm: return film_models();
-    case Family::kIntegrator: break;  // a floor above: integrators/make_integrator.h
+    case Family::kShape:
+      return shape_models();
+    case Family::kMaterial:
+      return material_models();
+    case Family::kTexture:
+      return texture_models();
+    case Family::kLight:
+      return light_models();
+    case Family::kAreaLight:
+      return area_light_models();
+    case Family::kCamera:
+      return camera_models();
+    case Family::kFilter:
+      return filter_models();
+    case Family::kSampler:
+      return sampler_models();
+    case Family::kFilm:
+      return film_models();
+    case Family::kIntegrator:
+      break;  // a floor above: integrators/make_integrator.h
   }
   return {};
 }
