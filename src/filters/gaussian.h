@@ -28,11 +28,11 @@ struct GaussianFilter {
       for (size_t i = 0; i < c.size(); ++i) cdf[i] = static_cast<float>(c[i] / sum);
       cdf[kCells] = 1.0f;
     }
-    float value(float x) const { return std::max(0.0f, std::exp(-sqr(x) / (2.0f * sqr(sigma))) - edge); }
+    float value(float d) const { return std::max(0.0f, std::exp(-sqr(d) / (2.0f * sqr(sigma))) - edge); }
     float at(int i) const { return value(r * static_cast<float>(i) / kCells); }
-    float eval(float x) const { return std::abs(x) <= r ? value(x) / integral : 0.0f; }
+    float eval(float d) const { return std::abs(d) <= r ? value(d) / integral : 0.0f; }
 
-    // x in [-r, r] with its weight.
+    // A distance in [-r, r], as offset.x, with its weight.
     FilterSample sample(float u) const {
       const float v = std::min(std::abs(2.0f * u - 1.0f), kOneMinusEpsilon);
       const auto i = static_cast<size_t>(std::upper_bound(cdf.begin() + 1, cdf.end() - 1, v) - cdf.begin()) - 1;
@@ -40,10 +40,10 @@ struct GaussianFilter {
       const float a = at(static_cast<int>(i)), b = at(static_cast<int>(i) + 1), mass = cdf[i + 1] - cdf[i];
       const float t = mass > 0 ? clamp((v - cdf[i]) / mass, 0.0f, 1.0f) : 0.5f;
       const float s = t * (a + b) / (a + safe_sqrt(lerp(t, sqr(a), sqr(b))));
-      const float x = r * (static_cast<float>(i) + s) / kCells;
+      const float d = r * (static_cast<float>(i) + s) / kCells;
       const float density = mass * kCells / r * 2.0f * lerp(s, a, b) / (a + b);  // of |x|
       if (!(density > 0)) return {{}, 0.0f};
-      return {{u < 0.5f ? -x : x, 0}, value(x) * 2.0f / (integral * density)};
+      return {{u < 0.5f ? -d : d, 0}, value(d) * 2.0f / (integral * density)};
     }
   };
 
