@@ -32,10 +32,6 @@ const ModelDecl& ImageMapTexture::decl() {
 ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b, bool is_float) {
   ImageMapTexture t;
   const std::string filter = p.string("filter"), wrap = p.string("wrap");
-  if (filter == "trilinear" || filter == "ewa")
-    p.diagnostics().note(
-        p.given("filter")->value_loc,
-        "images are read bilinearly on their finest level, whatever \"filter\" says, until mip levels come");
   t.nearest = filter == "point";
   t.wrap = wrap == "black"              ? Wrap::kBlack
            : wrap == "clamp"            ? Wrap::kClamp
