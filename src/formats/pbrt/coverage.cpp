@@ -6,7 +6,7 @@
 #include <array>
 
 #include "formats/pbrt/tokenizer.h"
-#include "scene/registry.h"
+#include "render/registry.h"
 
 namespace etd::pbrt {
 
@@ -62,9 +62,9 @@ const UnsupportedParam* find_unsupported(Family family, std::string_view model, 
 
 std::vector<std::string_view> known_names(Family family) {
   std::vector<std::string_view> names;
-  for (const ModelDecl* m : models(family)) names.push_back(m->name);
+  for (const ModelDecl* m : all_models(family)) names.push_back(m->name);
   for (const UnsupportedModel& m : unsupported_models())
-    if (m.family == family && !find_model(family, m.name)) names.push_back(m.name);
+    if (m.family == family && !find_any_model(family, m.name)) names.push_back(m.name);
   return names;
 }
 
@@ -147,7 +147,7 @@ ModelUse substitute(const UnsupportedModel& model, ModelUse use) {
 }
 
 void drop_unsupported_params(Family family, ModelUse& use, Diagnostics& diagnostics) {
-  const ModelDecl* decl = find_model(family, use.model);
+  const ModelDecl* decl = find_any_model(family, use.model);
   const auto dropped = [&](const Param& param) {
     if (decl && decl->find(param.name)) return false;
     const UnsupportedParam* rule = find_unsupported(family, use.model, param.name);
@@ -174,14 +174,14 @@ void note_filtering(Family family, const ModelUse& use, Diagnostics& diagnostics
 }  // namespace
 
 std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics& diagnostics) {
-  if (!find_model(family, use.model)) {
+  if (!find_any_model(family, use.model)) {
     const UnsupportedModel* model = find_unsupported(family, use.model);
     if (model) {
       diagnostics.unsupported(use.loc, fmt::format("{} \"{}\"", family_name(family), use.model),
                               std::string(model->substitute));
       if (model->stand_in.empty()) return {};
       use = substitute(*model, std::move(use));
-    } else if (!models(family).empty()) {
+    } else if (!all_models(family).empty()) {
       return report_unknown(family, use, diagnostics);
     }
   }
@@ -197,8 +197,8 @@ std::string old_name_hint(Family family, std::string_view name) {
 }
 
 bool may_take(Family family, std::string_view model, std::string_view param) {
-  if (models(family).empty()) return true;
-  if (const ModelDecl* decl = find_model(family, model); decl && decl->find(param)) return true;
+  if (all_models(family).empty()) return true;
+  if (const ModelDecl* decl = find_any_model(family, model); decl && decl->find(param)) return true;
   if (const UnsupportedModel* m = find_unsupported(family, model))
     for (const auto& [from, to] : m->kept)
       if (from == param) return true;

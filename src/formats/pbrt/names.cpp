@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/registry.h"
+#include "render/registry.h"
 
 namespace etd::pbrt {
 
@@ -110,7 +110,7 @@ void Names::resolve_objects(SceneDescription& scene, Diagnostics& diagnostics) c
 void Names::resolve_textures(SceneDescription& scene, Diagnostics& diagnostics) const {
   // The textures that a float texture is made of are float textures, whatever the model declares for both kinds.
   const auto resolve_use = [&](Family family, ModelUse& use, bool in_float_texture = false) {
-    const ModelDecl* decl = find_model(family, use.model);
+    const ModelDecl* decl = find_any_model(family, use.model);
     const auto undefined = [&](const Param& param) {
       if (param.kind != ParamKind::kTexture || param.malformed || param.strings.size() != 1) return false;
       const std::string& name = param.strings[0];

@@ -6,7 +6,7 @@
 
 #include "formats/pbrt/coverage.h"
 #include "formats/pbrt/parser.h"
-#include "scene/registry.h"
+#include "render/registry.h"
 
 namespace etd::pbrt {
 
@@ -83,7 +83,7 @@ void sampler(Parser& p, const Token& d) {
   std::optional<ModelUse> use = p.model_arguments(d, "the name of a sampler");
   if (!use) return;
   const std::string name = use->model;
-  const bool own = find_model(Family::kSampler, name) != nullptr;
+  const bool own = find_any_model(Family::kSampler, name) != nullptr;
   if (!own && !is_one_of(name, kNames)) {
     report_unknown_name(p, *use, Family::kSampler, kNames);
     use->model = "sobol";
@@ -96,7 +96,7 @@ void sampler(Parser& p, const Token& d) {
       p.diagnostics.note(use->loc, fmt::format("sampler \"{}\" is rendered with \"sobol\"", name) +
                                        (dropped.empty() ? "" : fmt::format(", without its {}", dropped)));
   }
-  const ModelDecl* decl = find_model(Family::kSampler, use->model);
+  const ModelDecl* decl = find_any_model(Family::kSampler, use->model);
   if (const Param* r = use->find("randomization"); r && !(decl && decl->find("randomization"))) {
     p.diagnostics.note(r->loc, "samples are scrambled by Owen's method, whatever \"randomization\" says");
     drop_all_but({"pixelsamples", "seed"}, use->params);
@@ -106,7 +106,7 @@ void sampler(Parser& p, const Token& d) {
 
 // What the path integrator of pbrt has beside its depth.
 void read_path_params(Parser& p, ModelUse& use) {
-  const ModelDecl* decl = find_model(Family::kIntegrator, "path");
+  const ModelDecl* decl = find_any_model(Family::kIntegrator, "path");
   const auto foreign = [&](const Param& param) {
     if (decl && decl->find(param.name)) return false;
     if (param.name == "lightsampler") {
@@ -129,11 +129,11 @@ void integrator(Parser& p, const Token& d) {
   std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
   if (!use) return;
   const std::string name = use->model;
-  if (!find_model(Family::kIntegrator, name) && !is_one_of(name, kNames)) {
+  if (!find_any_model(Family::kIntegrator, name) && !is_one_of(name, kNames)) {
     report_unknown_name(p, *use, Family::kIntegrator, kNames);
     use->model = "path";
     use->params.clear();
-  } else if (!find_model(Family::kIntegrator, name) && name != "path") {
+  } else if (!find_any_model(Family::kIntegrator, name) && name != "path") {
     use->model = "path";
     read_path_params(p, *use);
     const std::string dropped = drop_all_but({"maxdepth"}, use->params);

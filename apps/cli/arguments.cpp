@@ -1,0 +1,115 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "formats/pbrt/reader.h"
+
+namespace etd::cli {
+namespace {
+
+// Integers with the given separator between them; nothing when the text is anything else.
+std::optional<std::vector<int>> parse_integers(std::string_view text, char separator, size_t count) {
+  std::vector<int> values;
+  while (true) {
+    const size_t end = std::min(text.find(separator), text.size());
+    int value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + end, value);
+    if (error != std::errc() || stop != text.data() + end) return {};
+    values.push_back(value);
+    if (end == text.size()) break;
+    text.remove_prefix(end + 1);
+  }
+  if (values.size() != count) return {};
+  return values;
+}
+
+template <class T>
+void add_value(CLI::App& command, const std::string& name, std::optional<T>& to, const std::string& help,
+               const std::string& type) {
+  command
+      .add_option_function<T>(
+          name, [&to](const T& value) { to = value; }, help)
+      ->type_name(type);
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args) {
+  command.add_option("scene", args->scene, "a scene file; its ending names the language: .pbrt (pbrt-v4)")
+      ->required()
+      ->type_name("SCENE");
+  command.add_flag("--allow-unsupported", args->allow_unsupported,
+                   "replace what is not supported yet by named substitutes, with a warning for each");
+}
+
+void add_override_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args) {
+  RenderOverrides& o = args->overrides;
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&o](const std::string& text) {
+            const auto v = parse_integers(text, 'x', 2);
+            if (!v) throw CLI::ValidationError("--size", "\"" + text + "\" is not WIDTHxHEIGHT, as in 640x360");
+            o.size = {(*v)[0], (*v)[1]};
+          },
+          "resolution of the full image, in pixels")
+      ->type_name("WxH");
+  command
+      .add_option_function<std::string>(
+          "--crop",
+          [&o](const std::string& text) {
+            const auto v = parse_integers(text, ',', 4);
+            if (!v) throw CLI::ValidationError("--crop", "\"" + text + "\" is not x0,x1,y0,y1, as in 100,200,50,80");
+            o.crop = PixelBounds{(*v)[0], (*v)[2], (*v)[1], (*v)[3]};
+          },
+          "render only these pixels: x0 <= x < x1, y0 <= y < y1")
+      ->type_name("x0,x1,y0,y1");
+  add_value(command, "--spp", o.spp, "samples per pixel, rounded up to a multiple of the replicates", "N");
+  add_value(command, "--replicates", o.replicates,
+            "independent estimates that the samples are divided into (2); from 4 on their spread gives the error", "R");
+  add_value(command, "--seed", o.seed, "another seed gives another estimate; the same one gives the same bits", "N");
+  add_value(command, "--sampler", o.sampler, "sobol or independent", "NAME");
+  // Short names for parameters of the integrator.
+  const auto shorthand = [&](const std::string& option, const char* key, const char* help, const char* type) {
+    command
+        .add_option_function<std::string>(
+            option, [&o, key](const std::string& text) { o.set.emplace_back(key, text); }, help)
+        ->type_name(type);
+  };
+  shorthand("--max-depth", "integrator.maxdepth", "the longest path, in scattering events", "N");
+  shorthand("--mode", "integrator.mode", "how paths find light: naive, next_event or mis", "NAME");
+  shorthand("--components", "integrator.components", "all, or only direct, indirect or emission", "NAME");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&o](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const size_t equals = text.find('=');
+              if (equals == std::string::npos)
+                throw CLI::ValidationError("--set", "\"" + text + "\" is not NAME=VALUE, as in integrator.maxdepth=8");
+              o.set.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+            }
+          },
+          "set any parameter of film, sampler or integrator (etendue describe integrator)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_flag_function(
+      "--no-features", [&o](int64_t) { o.features = false; }, "leave out albedo, normal, depth and coverage");
+}
+
+SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {
+  const std::filesystem::path file = path;
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".pbrt") return read_pbrt(file, diagnostics);
+  diagnostics.error({}, fmt::format("{}: the ending \"{}\" names no scene language", path, ending),
+                    "valid: .pbrt (pbrt-v4)");
+  return {};
+}
+
+void print_diagnostics(const Diagnostics& diagnostics) { fmt::print(stderr, "{}", diagnostics.format_all()); }
+
+}  // namespace etd::cli

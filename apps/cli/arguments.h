@@ -1,0 +1,32 @@
+// What several commands share: options that change how a scene is rendered, and how a scene is read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "params/diagnostics.h"
+#include "render/settings.h"
+
+namespace etd::cli {
+
+struct SceneArguments {
+  std::string scene;
+  bool allow_unsupported = false;
+  RenderOverrides overrides;
+};
+
+// SCENE and --allow-unsupported.
+void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);
+// --size, --spp, --set and the others that change what is rendered.
+void add_override_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);
+
+// Reads a scene in the language that the file's ending names; an unknown ending and everything wrong inside are
+// reported, and the description is as complete as could be read.
+SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics);
+
+// Everything that was found, to stderr.
+void print_diagnostics(const Diagnostics& diagnostics);
+
+}  // namespace etd::cli

@@ -1,0 +1,21 @@
+// The commands of the program. Each adds its options to the parser and, when the user has chosen it, sets `run`: what
+// main() calls once parsing is over, and whose result is the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace etd::cli {
+
+// 0: done; 1: an internal error; 2: something is wrong with what the user gave; 130, 143: stopped by a signal, with the
+// image written.
+enum ExitCode : int { kOk = 0, kInternalError = 1, kBadInput = 2 };
+
+using Run = std::function<int()>;
+
+void add_render(CLI::App& app, Run& run);
+void add_info(CLI::App& app, Run& run);
+void add_check(CLI::App& app, Run& run);
+void add_describe(CLI::App& app, Run& run);
+
+}  // namespace etd::cli

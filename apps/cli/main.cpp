@@ -1,0 +1,65 @@
+// The command line program: parses arguments, calls the library, prints what it says.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands.h"
+#include "params/diagnostics.h"
+#include "render/version.h"
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  etendue render cornell-box.pbrt                        the picture that the scene's film names, in this folder
+  etendue render scene.pbrt -o out.exr -o out.png        all layers as EXR, and a PNG to look at
+  etendue render scene.pbrt --size 640x360 --spp 64      smaller, and 64 samples per pixel
+  etendue check scene.pbrt                               everything that is wrong with a scene
+  etendue describe material conductor                    its parameters
+
+`etendue COMMAND --help` tells more about a command.)";
+
+// CLI11 takes a mistyped command for a missing one; this says which word was wrong. False when there is none.
+bool report_unknown_command(const CLI::App& app, const char* word) {
+  if (word == nullptr || word[0] == '-') return false;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return false;
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string_view near = etd::nearest_name(word, views);
+  fmt::print(stderr, "etendue: there is no command \"{}\"\n", word);
+  if (!near.empty()) fmt::print(stderr, "  did you mean \"{}\"?\n", near);
+  fmt::print(stderr, "  valid: {}\n", fmt::join(names, ", "));
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Etendue, a reference renderer for Monte Carlo light transport.", "etendue"};
+  app.set_version_flag("--version", std::string("etendue ") + etd::version());
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  etd::cli::Run run;
+  etd::cli::add_render(app, run);
+  etd::cli::add_info(app, run);
+  etd::cli::add_check(app, run);
+  etd::cli::add_describe(app, run);
+  if (report_unknown_command(app, argc > 1 ? argv[1] : nullptr)) return etd::cli::kBadInput;
+  try {
+    app.parse(argc, argv);
+    return run();
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? etd::cli::kOk : etd::cli::kBadInput;  // prints help or the error
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "etendue: out of memory\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "etendue: internal error: {}\n", e.what());
+  }
+  return etd::cli::kInternalError;
+}

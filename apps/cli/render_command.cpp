@@ -1,0 +1,148 @@
+// `etendue render`: a scene goes in, pictures come out.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <set>
+
+#include "arguments.h"
+#include "commands.h"
+#include "io/file.h"
+#include "render/interrupt.h"
+#include "render/progress.h"
+#include "render/session.h"
+
+namespace etd::cli {
+namespace {
+
+struct Arguments : SceneArguments {
+  std::vector<std::string> outputs;
+  std::string stats;
+  double exposure = 0;
+  bool quiet = false;
+};
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  etendue render box.pbrt                              as the scene says, to the file it names\n"
+    "  etendue render box.pbrt -o box.exr -o box.png        every layer, and a picture to look at\n"
+    "  etendue render box.pbrt --size 640x360 --spp 256     another size, and less noise\n"
+    "  etendue render box.pbrt --replicates 8               a measured error also for sobol samples\n"
+    "  etendue render box.pbrt --set integrator.mode=naive  another estimator of the same image\n"
+    "\n"
+    "Ctrl-C finishes what runs, writes the image so far and exits with 130.";
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "etendue: {}\n", message);
+  return kBadInput;
+}
+
+// Why one of these cannot be written; empty when all can. Found before any work is done.
+std::string output_problem(const std::vector<std::string>& outputs, const std::string& stats) {
+  std::set<std::filesystem::path> places;
+  const auto is_new = [&places](const std::string& path) {
+    return places.insert(std::filesystem::absolute(path).lexically_normal()).second;
+  };
+  for (const std::string& path : outputs) {
+    if (!is_new(path)) return fmt::format("the output {} is given twice", path);
+    if (const std::string problem = check_output_path(path); !problem.empty())
+      return fmt::format("cannot write {}: {}", path, problem);
+  }
+  if (stats.empty()) return {};
+  if (!is_new(stats)) return fmt::format("the output {} is given twice", stats);
+  const PendingFile trial(stats);
+  return trial.path().empty() ? fmt::format("cannot write {}: {}", stats, trial.error()) : std::string();
+}
+
+void print_summary(const PreparedRender& prepared, const RenderResult& result) {
+  const RenderSettings& s = prepared.settings;
+  fmt::print("{}x{}, {} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
+             result.interrupted ? fmt::format(" of {} (interrupted)", s.spp) : "", result.seconds,
+             short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
+             error_text(result.error));
+}
+
+// Writes everything even when one file fails, since an image costs more than a message.
+bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const LayeredImage& image,
+               const RenderStats& stats) {
+  bool ok = true;
+  const auto report = [&ok](const std::string& path, const std::string& problem) {
+    if (problem.empty()) {
+      fmt::print("{}\n", path);
+    } else {
+      fmt::print(stderr, "etendue: cannot write {}: {}\n", path, problem);
+      ok = false;
+    }
+  };
+  for (const std::string& path : outputs) report(path, write_output(path, image, args.exposure));
+  if (!args.stats.empty()) report(args.stats, write_file(args.stats, stats_json(stats)));
+  return ok;
+}
+
+int render_scene(const Arguments& args) {
+  if (const std::string problem = output_problem(args.outputs, args.stats); !problem.empty()) return fail(problem);
+
+  const auto start = std::chrono::steady_clock::now();
+  Diagnostics diagnostics(args.allow_unsupported);
+  std::optional<PreparedRender> prepared;
+  double load_seconds = 0;
+  {
+    const SceneDescription description = load_scene(args.scene, diagnostics);
+    load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    prepared = prepare_render(description, args.overrides, diagnostics);
+  }
+  print_diagnostics(diagnostics);
+  if (!prepared) return kBadInput;
+
+  std::vector<std::string> outputs = args.outputs;
+  if (outputs.empty()) {
+    outputs.push_back(std::filesystem::path(prepared->settings.filename).filename().string());
+    if (const std::string problem = output_problem(outputs, args.stats); !problem.empty()) return fail(problem);
+  }
+
+  const InterruptScope interrupts;
+  RenderObserver silent;
+  ProgressPrinter printer(stderr, isatty(STDERR_FILENO) != 0);
+  const FinishedRender finished =
+      run_render(*prepared, args.quiet ? silent : static_cast<RenderObserver&>(printer), &interrupts.stop());
+  printer.finish();
+  RenderStats stats = finished_stats(*prepared, finished);
+  stats.load_seconds = load_seconds;
+  const bool written = write_all(args, outputs, finished_image(*prepared, finished), stats);
+  print_summary(*prepared, finished.result);
+  if (interrupts.exit_code() != 0) return interrupts.exit_code();
+  return written ? kOk : kInternalError;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("render", "Render a scene to image files.");
+  add_scene_options(*command, args);
+  command
+      ->add_option("-o,--output", args->outputs,
+                   "where the picture goes, several times if wanted: .exr holds all layers; .png, .jpg, .hdr and .pfm "
+                   "the picture (default: the name in the scene's film, in the current folder)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_override_options(*command, args);
+  command->add_option("--exposure", args->exposure, "stops by which .png and .jpg are brighter (0)")->type_name("EV");
+  command
+      ->add_option_function<int>(
+          "--threads", [args](const int& n) { args->overrides.threads = n; },
+          "worker threads (0: all cores); changes the time and nothing else")
+      ->type_name("N");
+  command
+      ->add_option_function<int>(
+          "--tile", [args](const int& n) { args->overrides.tile_size = n; },
+          "side of a work item in pixels (16); changes the time and nothing else")
+      ->type_name("N");
+  command->add_option("--stats", args->stats, "write times, rays and memory as JSON")->type_name("FILE");
+  command->add_flag("--quiet", args->quiet, "no progress");
+  command->footer(kExamples);
+  command->callback([args, &run] { run = [args] { return render_scene(*args); }; });
+}
+
+}  // namespace etd::cli

@@ -1,0 +1,132 @@
+#include "render/output.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "render/registry.h"
+#include "render/version.h"
+
+namespace etd {
+namespace {
+
+using Rgb = std::array<float, 3>;
+
+Rgb to_floats(const std::array<double, 3>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+std::vector<std::string> channel_names(bool features) {
+  std::vector<std::string> names = {"R",        "G",        "B",        "emission.R", "emission.G", "emission.B",
+                                    "direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B",
+                                    "stderr.R", "stderr.G", "stderr.B", "stderr.Y"};
+  if (features)
+    for (const char* name :
+         {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "coverage.A"})
+      names.emplace_back(name);
+  return names;
+}
+
+// The values of one pixel in the order of channel_names().
+void append_pixel(const Film& film, int x, int y, std::vector<float>& out) {
+  const PixelSums sums = film.total(x, y);
+  const Rgb emission = to_floats(sums.mean(sums.emission));
+  const Rgb direct = to_floats(sums.mean(sums.direct));
+  const Rgb indirect = to_floats(sums.mean(sums.indirect));
+  for (size_t i = 0; i < 3; ++i) out.push_back((emission[i] + direct[i]) + indirect[i]);
+  for (const Rgb& layer : {emission, direct, indirect}) out.insert(out.end(), layer.begin(), layer.end());
+  for (double e : film.standard_error(x, y)) out.push_back(static_cast<float>(e));
+  if (!film.settings().features) return;
+  for (const Rgb& layer : {to_floats(sums.mean(sums.albedo)), to_floats(sums.mean(sums.normal))})
+    out.insert(out.end(), layer.begin(), layer.end());
+  for (double v : {sums.depth, sums.coverage}) out.push_back(static_cast<float>(sums.count > 0 ? v / sums.count : 0));
+}
+
+// The value that a model uses for a parameter: given, or its default.
+MetadataValue parameter_value(const ParamReader& reader, const ParamDecl& p) {
+  if (p.array) {
+    const Param* given = reader.given(p.name);
+    if (!given) return std::string();
+    return fmt::format("{}{}{}", fmt::join(given->numbers, ","), fmt::join(given->integers, ","),
+                       fmt::join(given->strings, ","));
+  }
+  switch (p.type) {
+    case ParamType::kBool:
+      return std::string(reader.boolean(p.name) ? "true" : "false");
+    case ParamType::kInteger:
+      return reader.integer(p.name);
+    case ParamType::kFloat:
+      return reader.number(p.name);
+    case ParamType::kString:
+      return reader.string(p.name);
+    default:
+      return fmt::format("{}", fmt::join(reader.numbers(p.name), ","));
+  }
+}
+
+}  // namespace
+
+LayeredImage make_layers(const Film& film) {
+  const FilmSettings& settings = film.settings();
+  LayeredImage image;
+  image.width = settings.crop.width();
+  image.height = settings.crop.height();
+  image.x = settings.crop.x0;
+  image.y = settings.crop.y0;
+  image.full_width = settings.width;
+  image.full_height = settings.height;
+  image.channels = channel_names(settings.features);
+  image.pixels.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
+  for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
+    for (int x = settings.crop.x0; x < settings.crop.x1; ++x) append_pixel(film, x, y, image.pixels);
+  return image;
+}
+
+Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
+                       const RenderResult& result) {
+  const PixelBounds& crop = settings.crop;
+  // 64-bit numbers become text, since no number type of the format holds them all.
+  Metadata data = {{"etendue:version", std::string(version())},
+                   {"etendue:scene", scene.filename().string()},
+                   {"etendue:integrator", settings.integrator.model}};
+  if (const ModelDecl* decl = find_any_model(Family::kIntegrator, settings.integrator.model)) {
+    Diagnostics checked_before;
+    const ParamReader reader(*decl, settings.integrator, checked_before);
+    for (const ParamDecl& p : decl->params)
+      data.emplace_back("etendue:integrator." + p.name, parameter_value(reader, p));
+  }
+  const auto add = [&data](const char* name, MetadataValue value) {
+    data.emplace_back(std::string("etendue:") + name, std::move(value));
+  };
+  add("sampler", std::string(settings.sampler == SamplerKind::kSobol ? "sobol" : "independent"));
+  add("seed", std::to_string(settings.seed));
+  add("replicates", static_cast<int>(settings.replicates));
+  add("spp", static_cast<int>(result.spp));
+  add("spp_planned", static_cast<int>(settings.spp));
+  add("size", fmt::format("{}x{}", settings.width, settings.height));
+  add("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
+  add("rays.camera", std::to_string(result.rays.camera));
+  add("rays.indirect", std::to_string(result.rays.indirect));
+  add("rays.shadow", std::to_string(result.rays.shadow));
+  add("seconds", result.seconds);
+  add("error", result.error);
+  add("stderr",
+      std::string(settings.replicates >= kReplicatesForSpread ? "spread of the replicates"
+                                                              : "second moments (conservative for sobol samples)"));
+  add("biased", bias.empty() ? std::string("nothing") : bias);
+  add("interrupted", std::string(result.interrupted ? "true" : "false"));
+  return data;
+}
+
+std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
+  if (is_layered_path(path)) return write_layers(path, image);
+  const size_t channels = image.channels.size();
+  const std::array<int, 3> picture = {image.find("R"), image.find("G"), image.find("B")};
+  std::vector<float> rgb;
+  rgb.reserve(image.pixels.size() / channels * 3);
+  for (size_t pixel = 0; pixel < image.pixels.size(); pixel += channels)
+    for (int channel : picture) rgb.push_back(image.pixels[pixel + static_cast<size_t>(channel)]);
+  return write_rgb(path, image.width, image.height, rgb, static_cast<float>(exposure));
+}
+
+}  // namespace etd

@@ -1,0 +1,34 @@
+// From a film to files: the layers of the image, what is known about it, and the formats.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "film/film.h"
+#include "io/image_write.h"
+#include "render/driver.h"
+#include "render/settings.h"
+
+namespace etd {
+
+using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
+
+// The film as float layers: R, G, B; direct.*, indirect.*, emission.* (radiance); with features albedo.R..B,
+// normal.X..Z, depth.Z (metres), coverage.A; stderr.R, .G, .B, .Y. The picture is (emission + direct) + indirect of the
+// float layers, so that this sum holds bit for bit in the file.
+LayeredImage make_layers(const Film& film);
+
+// Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
+// scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, what is
+// biased
+// ("nothing" when nothing is) and whether it was interrupted.
+Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
+                       const RenderResult& result);
+
+// Writes one file in the format of its ending: all layers, or the picture alone (`exposure` in stops, for formats of
+// limited range). Returns what went wrong, or an empty string.
+std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure);
+
+}  // namespace etd

@@ -1,0 +1,83 @@
+#include "render/session.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "integrators/make_integrator.h"
+#include "render/threads.h"
+#include "scene/compile.h"
+#include "scene/scene.h"
+
+namespace etd {
+namespace {
+
+// An image larger than the machine is a slip of the keyboard, better reported than met as a killed process.
+void check_film_memory(const RenderSettings& settings, Diagnostics& diagnostics) {
+  const double needed = static_cast<double>(Film::bytes_for(film_settings(settings)));
+  const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= present) return;
+  diagnostics.error(
+      {},
+      fmt::format("the film needs {:.1f} GiB, and the machine has {:.1f}", needed / (1u << 30), present / (1u << 30)),
+      "a smaller size or crop, fewer replicates or no features make it smaller");
+}
+
+}  // namespace
+
+FilmSettings film_settings(const RenderSettings& s) {
+  return {.width = s.width, .height = s.height, .crop = s.crop, .replicates = s.replicates, .features = s.features};
+}
+
+std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
+                                             Diagnostics& diagnostics) {
+  const auto start = std::chrono::steady_clock::now();
+  PreparedRender prepared;
+  prepared.scene_file = description.file;
+  prepared.settings = make_settings(description, overrides, diagnostics);
+  const RenderSettings& settings = prepared.settings;
+  check_film_memory(settings, diagnostics);
+
+  ThreadLimit threads(settings.threads);  // building the accelerator is parallel too
+  prepared.scene = threads.run(
+      [&] { return compile(description, {.width = settings.width, .height = settings.height}, diagnostics); });
+  if (diagnostics.has_errors() || !prepared.scene) return {};
+  const IntegratorContext context{.sampler = settings.sampler,
+                                  .seed = settings.seed,
+                                  .width = settings.width,
+                                  .crop = settings.crop,
+                                  .tile_size = settings.tile_size,
+                                  .replicates = settings.replicates};
+  prepared.integrator = make_integrator(settings.integrator, *prepared.scene, context, diagnostics);
+  if (diagnostics.has_errors()) return {};
+  prepared.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return prepared;
+}
+
+FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
+  const RenderSettings& settings = prepared.settings;
+  FinishedRender finished{Film(film_settings(settings)), {}};
+  finished.result =
+      render(*prepared.integrator, finished.film, {.spp = settings.spp, .threads = settings.threads}, observer, stop);
+  return finished;
+}
+
+LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished) {
+  LayeredImage image = make_layers(finished.film);
+  image.metadata = make_metadata(prepared.scene_file, prepared.settings, prepared.integrator->bias(), finished.result);
+  return image;
+}
+
+RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender& finished) {
+  RenderStats stats;
+  stats.build_seconds = prepared.build_seconds;
+  stats.render_seconds = finished.result.seconds;
+  stats.rays = finished.result.rays;
+  stats.spp = finished.result.spp;
+  stats.peak_bytes = peak_memory_bytes();
+  count_pixels(finished.film, stats);
+  return stats;
+}
+
+}  // namespace etd

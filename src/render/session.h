@@ -1,0 +1,51 @@
+// A whole render as three steps that programs, tests and bindings call: prepare what a description asks for, run it,
+// write what came out. Nothing here knows where the description was read from.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "film/film.h"
+#include "integrators/integrator.h"
+#include "render/driver.h"
+#include "render/output.h"
+#include "render/settings.h"
+#include "render/stats.h"
+
+namespace etd {
+
+class Scene;
+
+struct PreparedRender {
+  std::filesystem::path scene_file;
+  RenderSettings settings;
+  std::shared_ptr<const Scene> scene;  // outlives the integrator, which refers to it
+  std::unique_ptr<Integrator> integrator;
+  double build_seconds = 0;
+};
+
+FilmSettings film_settings(const RenderSettings& settings);
+
+// Compiles the scene and makes the integrator. Reports everything that is wrong with description and overrides, also
+// when errors were reported before, and returns nothing if there is any error.
+std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
+                                             Diagnostics& diagnostics);
+
+struct FinishedRender {
+  Film film;
+  RenderResult result;
+};
+
+// Renders until all samples are taken or `stop` becomes true.
+FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
+
+// The image with its layers and metadata, ready for write_output().
+LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished);
+// All numbers but the seconds of loading, which the caller knows.
+RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender& finished);
+
+}  // namespace etd

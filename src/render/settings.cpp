@@ -1,0 +1,104 @@
+#include "render/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "film/rgb_film.h"
+#include "render/overrides.h"
+#include "render/registry.h"
+
+namespace etd {
+namespace {
+
+constexpr uint32_t kMaxSpp = 1u << 30;
+
+// Descriptions that were not read from a file may leave these to us.
+void fill_empty(ModelUse& use, const char* model) {
+  if (use.model.empty()) use.model = model;
+}
+
+// The overrides without those that are out of range, which are reported.
+RenderOverrides checked(RenderOverrides o, Diagnostics& diagnostics) {
+  const auto check = [&](auto& value, bool ok, const char* message) {
+    if (!value || ok) return;
+    diagnostics.error({}, message);
+    value.reset();
+  };
+  const auto [width, height] = o.size.value_or(std::pair(1, 1));
+  check(o.size, width >= 1 && height >= 1 && width <= kMaxImageSide && height <= kMaxImageSide,
+        "the image size must be from 1x1 to 65536x65536 pixels");
+  check(o.spp, o.spp >= 1u && o.spp <= kMaxSpp, "spp must be from 1 to 2^30");
+  check(o.replicates, o.replicates >= 1u && o.replicates <= 4096u, "replicates must be from 1 to 4096");
+  check(o.threads, o.threads >= 0 && o.threads <= 1024, "threads must be from 0 (all cores) to 1024");
+  check(o.tile_size, o.tile_size >= 1 && o.tile_size <= 4096, "the tile size must be from 1 to 4096 pixels");
+  return o;
+}
+
+void read_film(const ParamReader& reader, const RenderOverrides& overrides, RenderSettings& settings) {
+  const RgbFilm film = read_rgb_film(reader, overrides.size);
+  settings.width = film.width;
+  settings.height = film.height;
+  settings.crop = film.crop;
+  settings.filename = film.filename;
+  if (!overrides.crop) return;
+  const PixelBounds& c = *overrides.crop;
+  if (c.empty() || c.x0 < 0 || c.y0 < 0 || c.x1 > film.width || c.y1 > film.height)
+    reader.diagnostics().error(
+        {}, fmt::format("the crop {},{},{},{} is not a part of the image", c.x0, c.x1, c.y0, c.y1),
+        fmt::format("it is x0,x1,y0,y1 in pixels with x1 and y1 outside; the image is {} x {} pixels", film.width,
+                    film.height));
+  else
+    settings.crop = c;
+}
+
+void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, RenderSettings& settings) {
+  settings.sampler = sampler_kind(reader.decl().name);
+  settings.seed = overrides.seed.value_or(static_cast<uint64_t>(reader.integer("seed")));
+  const uint32_t wanted = overrides.spp.value_or(static_cast<uint32_t>(reader.integer("pixelsamples")));
+  const uint32_t r = settings.replicates;
+  settings.spp = (wanted + r - 1) / r * r;
+  if (settings.spp != wanted)
+    reader.diagnostics().note(
+        {}, fmt::format("{} samples per pixel rounded up to {}, a multiple of {} replicates", wanted, settings.spp, r));
+}
+
+}  // namespace
+
+RenderSettings make_settings(const SceneDescription& description, const RenderOverrides& wanted,
+                             Diagnostics& diagnostics) {
+  const RenderOverrides overrides = checked(wanted, diagnostics);
+  RenderSettings settings;
+  ModelUse film = description.film, sampler = description.sampler;
+  settings.integrator = description.integrator;
+  fill_empty(film, "rgb");
+  fill_empty(sampler, "sobol");
+  fill_empty(settings.integrator, "path");
+
+  settings.replicates = overrides.replicates.value_or(settings.replicates);
+  settings.features = overrides.features.value_or(settings.features);
+  settings.threads = overrides.threads.value_or(settings.threads);
+  settings.tile_size = overrides.tile_size.value_or(settings.tile_size);
+  if (overrides.sampler) {
+    sampler.model = *overrides.sampler;
+    const auto length = static_cast<int32_t>(sampler.model.size());
+    sampler.loc = {diagnostics.sources().add("command line", sampler.model), 1, 1, std::max(1, length)};
+  }
+  apply_overrides(overrides.set, {film, sampler, settings.integrator}, diagnostics);
+
+  const ModelDecl* film_decl = require_model(Family::kFilm, film, diagnostics);
+  const ModelDecl* sampler_decl = require_model(Family::kSampler, sampler, diagnostics);
+  const ModelDecl* integrator_decl = require_model(Family::kIntegrator, settings.integrator, diagnostics);
+  if (film_decl) {
+    check_params(*film_decl, film, diagnostics);
+    read_film(ParamReader(*film_decl, film, diagnostics), overrides, settings);
+  }
+  if (sampler_decl) {
+    check_params(*sampler_decl, sampler, diagnostics);
+    read_sampler(ParamReader(*sampler_decl, sampler, diagnostics), overrides, settings);
+  }
+  if (integrator_decl) check_params(*integrator_decl, settings.integrator, diagnostics);
+  return settings;
+}
+
+}  // namespace etd
