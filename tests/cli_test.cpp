@@ -1,0 +1,198 @@
+// Runs the program itself: exit codes, messages, files left behind, signals.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/image_write.h"
+#include "temp_folder.h"
+
+namespace etd {
+namespace {
+
+constexpr const char* kScene = R"(
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16 "string filename" "somewhere/picture.exr"
+Sampler "independent" "integer pixelsamples" 4
+LookAt 0 0 -3  0 0 0  0 1 0
+Camera "perspective" "float fov" 60
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.5 0.6 0.7 ]
+Material "diffuse" "rgb reflectance" [ 0.5 0.6 0.7 ]
+Shape "sphere"
+)";
+
+struct Finished {
+  int exit_code = -1;  // or minus the signal that ended it
+  std::string out, err;
+};
+
+// The program in a folder of its own.
+class Cli : public ::testing::Test {
+ protected:
+  pid_t start(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && exec '" ETENDUE_BINARY "' " + arguments +
+                                " >'" + log_.path().string() + "/out' 2>'" + log_.path().string() + "/err'";
+    const char* argv[] = {"sh", "-c", command.c_str(), nullptr};
+    pid_t pid = -1;
+    EXPECT_EQ(posix_spawn(&pid, "/bin/sh", nullptr, nullptr, const_cast<char* const*>(argv), environ), 0);
+    return pid;
+  }
+  Finished finish(pid_t pid) const {
+    int status = 0;
+    EXPECT_EQ(waitpid(pid, &status, 0), pid);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), text(log_.path() / "out"),
+            text(log_.path() / "err")};
+  }
+  Finished run(const std::string& arguments) const { return finish(start(arguments)); }
+  static std::string text(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path() / name); }
+
+  TempFolder folder_, log_;
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(Cli, HelpTeaches) {
+  for (const char* arguments : {"--help", "render --help"}) {
+    const Finished done = run(arguments);
+    EXPECT_EQ(done.exit_code, 0) << arguments;
+    EXPECT_TRUE(has(done.out, "Usage: etendue")) << done.out;
+    EXPECT_TRUE(has(done.out, "Examples:")) << done.out;
+  }
+  EXPECT_TRUE(has(run("--version").out, "etendue "));
+}
+
+TEST_F(Cli, WrongArgumentsExitWithTwo) {
+  folder_.write("s.pbrt", kScene);
+  for (const auto& [arguments, message] :
+       std::vector<std::pair<std::string, std::string>>{{"", "subcommand is required"},
+                                                        {"rendr s.pbrt", "did you mean \"render\"?"},
+                                                        {"render s.pbrt --sizes 3x3", "--sizes"},
+                                                        {"render s.pbrt --size 3by3", "not WIDTHxHEIGHT"},
+                                                        {"render s.pbrt --size 65536x65536", "the film needs"},
+                                                        {"render s.pbrt --spp many", "--spp"},
+                                                        {"render s.pbrt --set integrator.mode", "not NAME=VALUE"},
+                                                        {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
+                                                        {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
+                                                        {"render s.pbrt -o a.gif", "cannot write a.gif"},
+                                                        {"render s.obj", "names no scene language"},
+                                                        {"render absent.pbrt", "absent.pbrt"},
+                                                        {"describe material difuse", "did you mean \"diffuse\"?"}}) {
+    const Finished done = run(arguments);
+    EXPECT_EQ(done.exit_code, 2) << arguments;
+    EXPECT_TRUE(has(done.err, message)) << arguments << "\n" << done.err;
+  }
+  EXPECT_EQ(folder_.entries(), 1);  // the scene
+}
+
+TEST_F(Cli, RendersAllLayersAndAPicture) {
+  folder_.write("s.pbrt", kScene);
+  const Finished done = run("render s.pbrt -o a.exr -o a.png --stats a.json --spp 5 --seed 3 --threads 2");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (const char* part : {"a.exr\n", "a.png\n", "a.json\n", "24x16, 6 spp, "})
+    EXPECT_TRUE(has(done.out, part)) << part;
+  EXPECT_TRUE(has(done.err, "rounded up to 6"));
+  EXPECT_EQ(folder_.entries(), 4);
+  const LayersResult read = read_layers(folder_.path() / "a.exr");
+  ASSERT_TRUE(read.image) << read.error;
+  EXPECT_EQ(read.image->channels.size(), 24u);
+  const MetadataValue* seed = read.image->find_metadata("etendue:seed");
+  ASSERT_TRUE(seed);
+  EXPECT_EQ(std::get<std::string>(*seed), "3");
+  const auto stats = nlohmann::json::parse(text(folder_.path() / "a.json"));
+  EXPECT_EQ(stats["paths"], 24 * 16 * 6);
+  EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 6);
+  EXPECT_EQ(stats["spp"], 6);
+}
+
+TEST_F(Cli, WithoutAnOutputTheFilmNamesItInThisFolder) {
+  folder_.write("s.pbrt", kScene);
+  const Finished done = run("render s.pbrt --quiet");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  EXPECT_TRUE(exists("picture.exr"));
+  EXPECT_EQ(folder_.entries(), 2);
+}
+
+TEST_F(Cli, UnwritableOutputsAreFoundBeforeAnythingElse) {
+  for (const char* arguments : {"-o absent/a.exr", "-o a.exr --stats absent/a.json"}) {
+    const Finished done = run(std::string("render no-such-scene.pbrt ") + arguments);
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_TRUE(has(done.err, "cannot write absent/")) << done.err;
+    EXPECT_FALSE(has(done.err, "no-such-scene")) << done.err;
+  }
+  EXPECT_EQ(folder_.entries(), 0);
+}
+
+TEST_F(Cli, BrokenScenesLeaveNoFileAndShowEveryProblem) {
+  folder_.write("bad.pbrt", std::string(kScene) + "Material \"difuse\"\nShape \"sphere\" \"float radios\" 2\n");
+  for (const char* command : {"render bad.pbrt -o a.exr --stats a.json", "check bad.pbrt", "info bad.pbrt"}) {
+    const Finished done = run(command);
+    EXPECT_EQ(done.exit_code, 2) << command;
+    EXPECT_TRUE(has(done.err, "difuse")) << done.err;
+    EXPECT_TRUE(has(done.err, "did you mean \"radius\"?")) << done.err;
+    EXPECT_TRUE(has(done.err, "2 errors")) << done.err;
+    EXPECT_EQ(folder_.entries(), 1);
+  }
+}
+
+TEST_F(Cli, CheckAndInfoOfAGoodScene) {
+  folder_.write("s.pbrt", kScene);
+  EXPECT_EQ(run("check s.pbrt").exit_code, 0);
+  const Finished info = run("info s.pbrt --spp 32");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  for (const char* part : {"24x16, 32 spp", "1 sphere", "1 diffuse", "infinite", "bounds", "film"})
+    EXPECT_TRUE(has(info.out, part)) << part << "\n" << info.out;
+  EXPECT_EQ(folder_.entries(), 1);
+}
+
+TEST_F(Cli, DescribeShowsModels) {
+  EXPECT_TRUE(has(run("describe").out, "conductor"));
+  EXPECT_TRUE(has(run("describe area-light").out, "diffuse"));
+  EXPECT_TRUE(has(run("describe integrator path").out, "maxdepth"));
+}
+
+// Whether the process has said that it handles SIGINT, which it does while it renders.
+bool catches_interrupts(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string key; status >> key;)
+    if (key == "SigCgt:") {
+      std::string mask;
+      status >> mask;
+      return (std::stoull(mask, nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+    }
+  return false;
+}
+
+TEST_F(Cli, SignalsStopTheRenderAndWriteTheImage) {
+  folder_.write("s.pbrt", kScene);
+  for (const auto& [signal_number, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
+    const std::string name = std::to_string(code) + ".exr";
+    const pid_t pid = start("render s.pbrt --spp 100000000 -o " + name);
+    for (int i = 0; i < 1000 && !catches_interrupts(pid); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(pid, signal_number);
+    const Finished done = finish(pid);
+    EXPECT_EQ(done.exit_code, code) << done.err;
+    EXPECT_TRUE(has(done.out, "of 100000000 (interrupted)")) << done.out;
+    const LayersResult read = read_layers(folder_.path() / name);
+    ASSERT_TRUE(read.image) << read.error;
+    EXPECT_GT(read.image->plane("R")[0], 0.0f);
+    EXPECT_EQ(std::get<std::string>(*read.image->find_metadata("etendue:interrupted")), "true");
+  }
+  EXPECT_EQ(folder_.entries(), 3);
+}
+
+}  // namespace
+}  // namespace etd
