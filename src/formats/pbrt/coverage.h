@@ -35,6 +35,18 @@ struct UnsupportedParam {
   std::string_view substitute;  // in words; of a harmless one: why
 };
 
+// An option of pbrt, and what it means here.
+struct OptionRule {
+  enum class Effect : uint8_t { kSeed, kNone, kNote, kUnsupportedIfTrue };
+  std::string_view name;
+  Effect effect;
+  std::string_view text;  // why it has no effect, the note, or the substitute
+};
+
+std::span<const OptionRule> known_options();
+// Samplers and integrators of the language that are rendered with "sobol" and "path".
+std::span<const std::string_view> mapped_samplers();
+std::span<const std::string_view> mapped_integrators();
 std::span<const UnsupportedModel> unsupported_models();
 std::span<const UnsupportedParam> unsupported_params();
 

@@ -1,4 +1,6 @@
 // The table itself: the models and parameters of the pbrt-v4 file format that have no counterpart yet.
+#include <array>
+
 #include "formats/pbrt/coverage.h"
 
 namespace etd::pbrt {
@@ -136,6 +138,35 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kFilm, "", "whitebalance", "0", "no white balance"},
       {Family::kFilm, "", "maxcomponentvalue", "inf", "no clamping of bright samples"},
   };
+  return table;
+}
+
+std::span<const OptionRule> known_options() {
+  using Effect = OptionRule::Effect;
+  static constexpr std::array<OptionRule, 11> table = {
+      {{"seed", Effect::kSeed, "the sampler's seed, unless it has its own"},
+       {"rendercoordsys", Effect::kNone, "coordinates are always recentred exactly"},
+       {"disabletexturefiltering", Effect::kNone, "textures are not filtered over footprints"},
+       {"disablewavelengthjitter", Effect::kNone, "there are no wavelengths to sample"},
+       {"displacementedgescale", Effect::kNone, "there is no displacement"},
+       {"wavefront", Effect::kNone, "it chooses an implementation, not an image"},
+       {"disablepixeljitter", Effect::kUnsupportedIfTrue, "samples spread over the pixel filter"},
+       {"forcediffuse", Effect::kUnsupportedIfTrue, "the materials as they are"},
+       {"pixelstats", Effect::kNote, "no statistics of single pixels are written"},
+       {"msereferenceimage", Effect::kNote, "no comparison with a reference is made while rendering"},
+       {"msereferenceout", Effect::kNote, "no comparison with a reference is made while rendering"}}};
+  return table;
+}
+
+std::span<const std::string_view> mapped_samplers() {
+  static constexpr std::array<std::string_view, 5> table = {"paddedsobol", "zsobol", "halton", "pmj02bn", "stratified"};
+  return table;
+}
+
+std::span<const std::string_view> mapped_integrators() {
+  static constexpr std::array<std::string_view, 10> table = {
+      "volpath",   "simplepath", "simplevolpath",    "bdpt",    "mlt", "sppm",
+      "lightpath", "randomwalk", "ambientocclusion", "function"};
   return table;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "formats/pbrt/coverage.h"
 #include "formats/pbrt/parser.h"
@@ -52,55 +53,72 @@ std::string drop_all_but(std::initializer_list<std::string_view> kept, std::vect
   return dropped;
 }
 
-void report_unknown_name(Parser& p, const ModelUse& use, Family family, std::initializer_list<std::string_view> valid) {
-  const std::vector<std::string_view> names(valid);
+// Turns a use of another sampler or integrator into one of `ours` that keeps the named parameters, with a note unless
+// it is only another name.
+void map_to_ours(Parser& p, ModelUse& use, std::string_view ours, std::initializer_list<std::string_view> kept,
+                 bool same, std::string_view what) {
+  const std::string dropped = drop_all_but(kept, use.params);
+  if (!same || !dropped.empty())
+    p.diagnostics.note(use.loc, fmt::format("{} \"{}\" is rendered with \"{}\"{}{}", what, use.model, ours,
+                                            dropped.empty() ? "" : ", without its ", dropped));
+  use.model = ours;
+}
+
+// Reports a name that neither Etendue nor the language has, and puts ours in its place.
+void replace_unknown(Parser& p, ModelUse& use, Family family, std::string_view ours,
+                     std::span<const std::string_view> mapped) {
+  std::vector<std::string_view> names;
+  for (const ModelDecl* model : all_models(family)) names.push_back(model->name);
+  names.insert(names.end(), mapped.begin(), mapped.end());
   std::string hint = old_name_hint(family, use.model);
   if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
     hint = fmt::format("did you mean \"{}\"? ", near);
   p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
                       hint + fmt::format("valid: {}", fmt::join(names, ", ")));
+  use.model = ours;
+  use.params.clear();
+}
+
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // A stratified sampler says how many samples it takes as a product.
 void multiply_strata(ModelUse& use) {
-  const auto strata = [&](std::string_view name) {
-    const Param* param = use.find(name);
-    return param && param->integers.size() == 1 ? param->integers[0] : 4;
-  };
+  int64_t count = 1;
   Param samples;
   samples.name = "pixelsamples";
   samples.kind = ParamKind::kInteger;
-  samples.integers = {strata("xsamples") * strata("ysamples")};
-  const Param* given = use.find("xsamples");
-  samples.loc = given ? given->loc : use.loc;
-  samples.value_loc = given ? given->value_loc : use.loc;
+  samples.loc = samples.value_loc = use.loc;
+  for (const std::string_view name : {"xsamples", "ysamples"}) {
+    const Param* strata = use.find(name);
+    count *= strata && strata->integers.size() == 1 ? strata->integers[0] : 4;
+    if (strata) samples.loc = strata->loc, samples.value_loc = strata->value_loc;
+  }
+  constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
+  samples.integers = {static_cast<int32_t>(std::clamp(count, -kMost, kMost))};
+  drop_all_but({"xsamples", "ysamples", "jitter", "seed"}, use.params);
   use.params.push_back(std::move(samples));
 }
 
 void sampler(Parser& p, const Token& d) {
-  const std::initializer_list<std::string_view> kNames = {"independent", "sobol",   "paddedsobol", "zsobol",
-                                                          "halton",      "pmj02bn", "stratified"};
   std::optional<ModelUse> use = p.model_arguments(d, "the name of a sampler");
   if (!use) return;
-  const std::string name = use->model;
-  const bool own = find_any_model(Family::kSampler, name) != nullptr;
-  if (!own && !is_one_of(name, kNames)) {
-    report_unknown_name(p, *use, Family::kSampler, kNames);
-    use->model = "sobol";
-    use->params.clear();
-  } else if (!is_one_of(name, {"independent", "sobol"}) && !own) {
-    if (name == "stratified") multiply_strata(*use);
-    use->model = "sobol";
-    std::string dropped = drop_all_but({"pixelsamples", "seed"}, use->params);
-    if (name != "paddedsobol")
-      p.diagnostics.note(use->loc, fmt::format("sampler \"{}\" is rendered with \"sobol\"", name) +
-                                       (dropped.empty() ? "" : fmt::format(", without its {}", dropped)));
+  if (!find_any_model(Family::kSampler, use->model)) {
+    if (!contains(mapped_samplers(), use->model)) {
+      replace_unknown(p, *use, Family::kSampler, "sobol", mapped_samplers());
+    } else {
+      if (use->model == "stratified") multiply_strata(*use);
+      map_to_ours(p, *use, "sobol", {"pixelsamples", "seed", "randomization"}, use->model == "paddedsobol", "sampler");
+    }
   }
-  const ModelDecl* decl = find_any_model(Family::kSampler, use->model);
-  if (const Param* r = use->find("randomization"); r && !(decl && decl->find("randomization"))) {
-    p.diagnostics.note(r->loc, "samples are scrambled by Owen's method, whatever \"randomization\" says");
-    drop_all_but({"pixelsamples", "seed"}, use->params);
-  }
+  const auto foreign = [&](const Param& param) {
+    const ModelDecl* decl = find_any_model(Family::kSampler, use->model);
+    if (param.name != "randomization" || (decl && decl->find(param.name))) return false;
+    p.diagnostics.note(param.loc, "samples are scrambled by Owen's method, whatever \"randomization\" says");
+    return true;
+  };
+  use->params.erase(std::remove_if(use->params.begin(), use->params.end(), foreign), use->params.end());
   replace(p, p.scene.sampler, std::move(*use), d);
 }
 
@@ -123,24 +141,13 @@ void read_path_params(Parser& p, ModelUse& use) {
 }
 
 void integrator(Parser& p, const Token& d) {
-  const std::initializer_list<std::string_view> kNames = {
-      "path",       "volpath",          "bdpt",      "mlt",     "sppm", "simplepath", "simplevolpath",
-      "randomwalk", "ambientocclusion", "lightpath", "function"};
   std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
   if (!use) return;
-  const std::string name = use->model;
-  if (!find_any_model(Family::kIntegrator, name) && !is_one_of(name, kNames)) {
-    report_unknown_name(p, *use, Family::kIntegrator, kNames);
-    use->model = "path";
-    use->params.clear();
-  } else if (!find_any_model(Family::kIntegrator, name) && name != "path") {
-    use->model = "path";
-    read_path_params(p, *use);
-    const std::string dropped = drop_all_but({"maxdepth"}, use->params);
-    p.diagnostics.note(use->loc, fmt::format("integrator \"{}\" is rendered with \"path\"", name) +
-                                     (dropped.empty() ? "" : fmt::format(", without its {}", dropped)));
-  }
-  if (use->model == "path") read_path_params(p, *use);
+  const bool own = use->model == "path" || find_any_model(Family::kIntegrator, use->model);
+  const bool mapped = contains(mapped_integrators(), use->model);
+  if (!own && !mapped) replace_unknown(p, *use, Family::kIntegrator, "path", mapped_integrators());
+  if (own ? use->model == "path" : mapped) read_path_params(p, *use);
+  if (!own && mapped) map_to_ours(p, *use, "path", {"maxdepth"}, false, "integrator");
   replace(p, p.scene.integrator, std::move(*use), d);
 }
 
@@ -158,26 +165,6 @@ void color_space(Parser& p, const Token& d) {
     p.diagnostics.error(name->loc, fmt::format("unknown color space \"{}\"", name->text),
                         "valid: srgb, aces2065-1, dci-p3, rec2020");
 }
-
-// An option of pbrt, and what it means here.
-struct OptionRule {
-  enum class Effect : uint8_t { kSeed, kNone, kNote, kUnsupportedIfTrue };
-  std::string_view name;
-  Effect effect;
-  std::string_view text;  // a note or a substitute
-};
-constexpr std::array<OptionRule, 11> kOptions = {
-    {{"seed", OptionRule::Effect::kSeed, ""},
-     {"rendercoordsys", OptionRule::Effect::kNone, ""},
-     {"disabletexturefiltering", OptionRule::Effect::kNone, ""},
-     {"disablewavelengthjitter", OptionRule::Effect::kNone, ""},
-     {"displacementedgescale", OptionRule::Effect::kNone, ""},
-     {"wavefront", OptionRule::Effect::kNone, ""},
-     {"disablepixeljitter", OptionRule::Effect::kUnsupportedIfTrue, "samples spread over the pixel filter"},
-     {"forcediffuse", OptionRule::Effect::kUnsupportedIfTrue, "the materials as they are"},
-     {"pixelstats", OptionRule::Effect::kNote, "no statistics of single pixels are written"},
-     {"msereferenceimage", OptionRule::Effect::kNote, "no comparison with a reference is made while rendering"},
-     {"msereferenceout", OptionRule::Effect::kNote, "no comparison with a reference is made while rendering"}}};
 
 // pbrt reads "mse-reference-image", "mseReferenceImage" and the same with a type before it as one.
 std::string normalised_option(std::string name) {
@@ -207,10 +194,11 @@ void option(Parser& p, const Token& d) {
     if (close && close->kind == Token::Kind::kClose) p.tokens.next();
   }
   const std::string key = normalised_option(name->value());
-  const auto rule = std::find_if(kOptions.begin(), kOptions.end(), [&](const OptionRule& r) { return r.name == key; });
-  if (rule == kOptions.end()) {
+  const auto rule =
+      std::find_if(known_options().begin(), known_options().end(), [&](const OptionRule& r) { return r.name == key; });
+  if (rule == known_options().end()) {
     std::vector<std::string_view> names;
-    for (const OptionRule& r : kOptions) names.push_back(r.name);
+    for (const OptionRule& r : known_options()) names.push_back(r.name);
     const std::string_view near = nearest_name(key, names);
     p.diagnostics.error(
         name->loc, fmt::format("unknown option \"{}\"", name->text),
