@@ -10,6 +10,8 @@
 #include <string>
 
 #include "formats/pbrt/reader.h"
+#include "scene/compile.h"
+#include "scene/scene.h"
 
 namespace etd {
 namespace {
@@ -45,7 +47,8 @@ TEST_P(BrokenScene, SaysExactlyWhatIsWrong) {
   const std::string& name = GetParam();
   const bool allowed = name.size() > 8 && name.substr(name.size() - 8) == "_allowed";
   Diagnostics diagnostics(allowed);
-  read_pbrt(kFolder / (name + ".pbrt"), diagnostics);
+  const SceneDescription scene = read_pbrt(kFolder / (name + ".pbrt"), diagnostics);
+  compile(scene, {64, 64}, diagnostics);
   EXPECT_EQ(diagnostics.has_errors(), !allowed);
   const std::string messages = with_relative_paths(diagnostics.format_all());
   const fs::path expected = kFolder / (name + ".expected");

@@ -189,6 +189,7 @@ TEST(Diagnostics, SortedNotesOnceUnsupportedByMode) {
   d.unsupported({file, 1, 1, 1}, "material \"hair\"", "a black diffuse material");
   d.note({file, 2, 1, 1}, "once");
   d.note({file, 3, 1, 1}, "once");
+  d.error({file, 3, 1, 1}, "third");
   EXPECT_EQ(d.format_all(),
             "a:1:1: error: material \"hair\" is not supported yet\n    1 | 1\n      | ^\n"
             "   --allow-unsupported renders with: a black diffuse material\n"

@@ -111,30 +111,27 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+void Diagnostics::add(Diagnostic d) {
+  const SourceLoc place = d.severity == Severity::kNote ? SourceLoc{} : d.loc;
+  if (!said_.insert(fmt::format("{}:{}:{}:{}", place.file, place.line, place.column, d.message)).second) return;
+  errors_ += d.severity == Severity::kError || d.severity == Severity::kUnsupported;
+  list_.push_back(std::move(d));
+}
+
 void Diagnostics::error(SourceLoc loc, std::string message, std::string hint) {
-  list_.push_back({Severity::kError, loc, std::move(message), std::move(hint)});
-  ++errors_;
+  add({Severity::kError, loc, std::move(message), std::move(hint)});
 }
 
 void Diagnostics::warning(SourceLoc loc, std::string message, std::string hint) {
-  list_.push_back({Severity::kWarning, loc, std::move(message), std::move(hint)});
+  add({Severity::kWarning, loc, std::move(message), std::move(hint)});
 }
 
-void Diagnostics::note(SourceLoc loc, std::string message) {
-  for (const Diagnostic& d : list_)
-    if (d.severity == Severity::kNote && d.message == message) return;
-  list_.push_back({Severity::kNote, loc, std::move(message), {}});
-}
+void Diagnostics::note(SourceLoc loc, std::string message) { add({Severity::kNote, loc, std::move(message), {}}); }
 
 void Diagnostics::unsupported(SourceLoc loc, std::string what, std::string substitute) {
-  std::string message = std::move(what) + " is not supported yet";
-  if (allow_unsupported_) {
-    list_.push_back({Severity::kWarning, loc, std::move(message), "rendered with: " + substitute});
-  } else {
-    list_.push_back(
-        {Severity::kUnsupported, loc, std::move(message), "--allow-unsupported renders with: " + substitute});
-    ++errors_;
-  }
+  const std::string_view prefix = allow_unsupported_ ? "rendered with: " : "--allow-unsupported renders with: ";
+  add({allow_unsupported_ ? Severity::kWarning : Severity::kUnsupported, loc, std::move(what) + " is not supported yet",
+       std::string(prefix) + substitute});
 }
 
 std::string Diagnostics::format(const Diagnostic& d) const {

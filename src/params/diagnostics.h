@@ -2,6 +2,7 @@
 // report here and go on with a harmless stand-in, and the caller asks has_errors() once at the end.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,7 @@ class Diagnostics {
   Sources& sources() { return sources_; }
   const Sources& sources() const { return sources_; }
 
+  // The same message at the same place is kept once: models may look at a parameter more than once.
   void error(SourceLoc loc, std::string message, std::string hint = {});
   void warning(SourceLoc loc, std::string message, std::string hint = {});
   // Something the user should know once per cause: a repeated message is kept once.
@@ -48,8 +50,12 @@ class Diagnostics {
   std::string format_all() const;
 
  private:
+  // Keeps the diagnostic unless it was said before.
+  void add(Diagnostic diagnostic);
+
   Sources sources_;
   std::vector<Diagnostic> list_;
+  std::set<std::string> said_;
   int errors_ = 0;
   bool allow_unsupported_ = false;
 };

@@ -34,14 +34,19 @@ class TextureOrder {
     if (state_[i] == State::kBuilt) return;
     if (state_[i] == State::kBuilding) {
       diagnostics_.error(t.use.loc, fmt::format("texture \"{}\" refers to itself", t.name));
+      // A stand-in, so that the textures of the cycle are not reported as missing too.
+      builder_.add(t.name, t.is_float, {"constant", {}, t.use.loc}, diagnostics_);
       return;
     }
     state_[i] = State::kBuilding;
     check(Family::kTexture, t.use, diagnostics_);
-    for (const Param& p : t.use.params)
-      if (p.kind == ParamKind::kTexture && !p.strings.empty())
-        for (const bool is_float : {true, false})
-          if (const auto it = names_.find({p.strings[0], is_float}); it != names_.end()) build(it->second);
+    const ModelDecl* decl = find_model(Family::kTexture, t.use.model);
+    for (const Param& p : t.use.params) {
+      const ParamDecl* declared = decl ? decl->find(p.name) : nullptr;
+      if (!declared || p.kind != ParamKind::kTexture || p.strings.empty()) continue;
+      const bool is_float = t.is_float || declared->type == ParamType::kFloatTexture;
+      if (const auto it = names_.find({p.strings[0], is_float}); it != names_.end()) build(it->second);
+    }
     builder_.add(t.name, t.is_float, t.use, diagnostics_);
     state_[i] = State::kBuilt;
   }

@@ -66,7 +66,7 @@ Spectrum spectrum_value(const ParamReader& params, std::string_view name) {
 
 SpectrumSource TextureBuilder::spectrum(const ParamReader& params, std::string_view name) const {
   const Param* p = params.given(name);
-  if (p && p->kind == ParamKind::kTexture) return {{}, find(*p, false, params.diagnostics())};
+  if (p && p->kind == ParamKind::kTexture) return {{}, find(*p, inside_float_, params.diagnostics())};
   return {spectrum_value(params, name), -1};
 }
 

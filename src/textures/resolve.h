@@ -21,7 +21,7 @@ class TextureBuilder {
  public:
   TextureBuilder(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
 
-  // Builds a checked use, whose children must have been built before.
+  // Builds a checked use, whose children must have been built before. A float texture is made of float textures only.
   void add(const std::string& name, bool is_float, const ModelUse& use, Diagnostics& diagnostics);
 
   SpectrumSource spectrum(const ParamReader& params, std::string_view name) const;
@@ -34,6 +34,7 @@ class TextureBuilder {
 
   TextureTable& table_;
   std::filesystem::path folder_;
+  bool inside_float_ = false;  // while a float texture is built
   std::map<std::pair<std::string, bool>, int32_t> names_;
   std::map<std::pair<std::string, std::string>, int32_t> images_;
 };

@@ -42,6 +42,7 @@ std::span<const ModelDecl* const> texture_models() {
 }
 
 void TextureBuilder::add(const std::string& name, bool is_float, const ModelUse& use, Diagnostics& diagnostics) {
+  inside_float_ = is_float;
   Texture texture(ConstantTexture{Spectrum(0.5f)});
   if (use.model == "constant")
     texture = Texture(ConstantTexture::create({ConstantTexture::decl(), use, diagnostics}, *this));
@@ -53,6 +54,7 @@ void TextureBuilder::add(const std::string& name, bool is_float, const ModelUse&
     const ImageMapTexture t = ImageMapTexture::create({ImageMapTexture::decl(), use, diagnostics}, *this, is_float);
     if (t.image >= 0) texture = Texture(t);
   }
+  inside_float_ = false;
   names_[{name, is_float}] = static_cast<int32_t>(table_.textures.size());
   table_.textures.push_back(texture);
 }

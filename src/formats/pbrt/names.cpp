@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "render/registry.h"
-
 namespace etd::pbrt {
 
 namespace {
@@ -75,7 +71,6 @@ void Names::define_medium(const std::string& name, const SourceLoc& loc, Diagnos
 void Names::resolve(SceneDescription& scene, Diagnostics& diagnostics) const {
   resolve_materials(diagnostics);
   resolve_objects(scene, diagnostics);
-  resolve_textures(scene, diagnostics);
   for (const Use& use : medium_uses_)
     if (!media_.count(use.name)) report_undefined("medium", use.name, use.loc, media_, diagnostics);
 }
@@ -105,39 +100,6 @@ void Names::resolve_objects(SceneDescription& scene, Diagnostics& diagnostics) c
                         "an object can only contain instances of objects that end before it begins");
     }
   }
-}
-
-void Names::resolve_textures(SceneDescription& scene, Diagnostics& diagnostics) const {
-  // The textures that a float texture is made of are float textures, whatever the model declares for both kinds.
-  const auto resolve_use = [&](Family family, ModelUse& use, bool in_float_texture = false) {
-    const ModelDecl* decl = find_any_model(family, use.model);
-    const auto undefined = [&](const Param& param) {
-      if (param.kind != ParamKind::kTexture || param.malformed || param.strings.size() != 1) return false;
-      const std::string& name = param.strings[0];
-      const ParamDecl* declared = decl ? decl->find(param.name) : nullptr;
-      const bool is_float = in_float_texture || (declared && declared->type == ParamType::kFloatTexture);
-      const bool is_spectrum = !is_float && declared && declared->type == ParamType::kSpectrumTexture;
-      if ((!is_float && textures_[0].count(name)) || (!is_spectrum && textures_[1].count(name))) return false;
-      if (textures_[0].count(name) || textures_[1].count(name))
-        diagnostics.error(param.value_loc,
-                          fmt::format("texture \"{}\" is a {} texture, and \"{}\" takes a {} texture", name,
-                                      is_float ? "spectrum" : "float", param.name, is_float ? "float" : "spectrum"));
-      else
-        report_undefined(is_float      ? "float texture"
-                         : is_spectrum ? "spectrum texture"
-                                       : "texture",
-                         name, param.value_loc, textures_[is_float], diagnostics);
-      return true;
-    };
-    use.params.erase(std::remove_if(use.params.begin(), use.params.end(), undefined), use.params.end());
-  };
-  for (TextureDesc& t : scene.textures) resolve_use(Family::kTexture, t.use, t.is_float);
-  for (MaterialDesc& m : scene.materials) resolve_use(Family::kMaterial, m.use);
-  for (ShapeDesc& s : scene.shapes) resolve_use(Family::kShape, s.use);
-  for (ObjectDesc& o : scene.objects)
-    for (ShapeDesc& s : o.shapes) resolve_use(Family::kShape, s.use);
-  for (LightDesc& l : scene.lights) resolve_use(Family::kLight, l.use);
-  for (ModelUse& a : scene.area_lights) resolve_use(Family::kAreaLight, a);
 }
 
 }  // namespace etd::pbrt

@@ -1,5 +1,6 @@
 // The names of a scene: materials, textures, objects, media. pbrt lets a material, an object or a medium be used before
-// it is defined, so uses are kept and resolved at the end of the scene.
+// it is defined, so uses are kept and resolved at the end of the scene. Which texture a parameter means depends on its
+// model, so that is left to compile().
 #pragma once
 
 #include <map>
@@ -56,7 +57,6 @@ class Names {
 
   void resolve_materials(Diagnostics& diagnostics) const;
   void resolve_objects(SceneDescription& scene, Diagnostics& diagnostics) const;
-  void resolve_textures(SceneDescription& scene, Diagnostics& diagnostics) const;
 
   std::map<std::string, Material> materials_;
   std::map<std::string, SourceLoc> textures_[2];  // spectrum, float
