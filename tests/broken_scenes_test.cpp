@@ -10,6 +10,7 @@
 #include <string>
 
 #include "formats/pbrt/reader.h"
+#include "render/settings.h"
 #include "scene/compile.h"
 #include "scene/scene.h"
 
@@ -48,7 +49,8 @@ TEST_P(BrokenScene, SaysExactlyWhatIsWrong) {
   const bool allowed = name.size() > 8 && name.substr(name.size() - 8) == "_allowed";
   Diagnostics diagnostics(allowed);
   const SceneDescription scene = read_pbrt(kFolder / (name + ".pbrt"), diagnostics);
-  compile(scene, {64, 64}, diagnostics);
+  const RenderSettings settings = make_settings(scene, {}, diagnostics);
+  compile(scene, {settings.width, settings.height}, diagnostics);
   EXPECT_EQ(diagnostics.has_errors(), !allowed);
   const std::string messages = with_relative_paths(diagnostics.format_all());
   const fs::path expected = kFolder / (name + ".expected");

@@ -139,6 +139,7 @@ TEST(Params, ReaderGivesValuesOrDefaults) {
   EXPECT_EQ(reader.given("color"), nullptr);
   EXPECT_EQ(reader.number("bump"), 0.0);
   EXPECT_EQ(reader.given("P"), &use.params[2]);
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";  // other tests may have started threads
   EXPECT_DEATH(reader.number("nothing"), "is read but not declared");
   EXPECT_DEATH(reader.number("mode"), "another type");
 }

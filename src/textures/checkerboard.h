@@ -19,13 +19,7 @@ struct CheckerboardTexture {
            .type = ParamType::kSpectrumTexture,
            .default_value = 1.0,
            .doc = "Of the square at (0, 0)."},
-          {.name = "tex2", .type = ParamType::kSpectrumTexture, .default_value = 0.0, .doc = "Of its neighbours."},
-          {.name = "dimension",
-           .type = ParamType::kInteger,
-           .default_value = 2,
-           .min = 2,
-           .max = 2,
-           .doc = "Number of dimensions of the board; solid boards (3) are not there yet."}}});
+          {.name = "tex2", .type = ParamType::kSpectrumTexture, .default_value = 0.0, .doc = "Of its neighbours."}}});
     return d;
   }
   static CheckerboardTexture create(const ParamReader& p, TextureBuilder& b) {

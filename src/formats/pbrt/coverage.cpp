@@ -181,7 +181,7 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
                               std::string(model->substitute));
       if (model->stand_in.empty()) return {};
       use = substitute(*model, std::move(use));
-    } else if (!all_models(family).empty()) {
+    } else {
       return report_unknown(family, use, diagnostics);
     }
   }
@@ -197,7 +197,6 @@ std::string old_name_hint(Family family, std::string_view name) {
 }
 
 bool may_take(Family family, std::string_view model, std::string_view param) {
-  if (all_models(family).empty()) return true;
   if (const ModelDecl* decl = find_any_model(family, model); decl && decl->find(param)) return true;
   if (const UnsupportedModel* m = find_unsupported(family, model))
     for (const auto& [from, to] : m->kept)

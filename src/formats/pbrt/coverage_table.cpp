@@ -110,7 +110,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kMaterial, "dielectric", "roughness", "0", "a smooth dielectric"},
       {Family::kMaterial, "dielectric", "uroughness", "0", "a smooth dielectric"},
       {Family::kMaterial, "dielectric", "vroughness", "0", "a smooth dielectric"},
-      {Family::kMaterial, "dielectric", "remaproughness", "*", "a smooth dielectric has no roughness"},
 
       {Family::kTexture, "", "mapping", "uv", "the uv mapping"},
       {Family::kTexture, "", "v1", "*", "only the planar mapping reads it"},

@@ -143,7 +143,7 @@ void read_path_params(Parser& p, ModelUse& use) {
 void integrator(Parser& p, const Token& d) {
   std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
   if (!use) return;
-  const bool own = use->model == "path" || find_any_model(Family::kIntegrator, use->model);
+  const bool own = find_any_model(Family::kIntegrator, use->model) != nullptr;
   const bool mapped = contains(mapped_integrators(), use->model);
   if (!own && !mapped) replace_unknown(p, *use, Family::kIntegrator, "path", mapped_integrators());
   if (own ? use->model == "path" : mapped) read_path_params(p, *use);
