@@ -160,6 +160,7 @@ TEST_F(Cli, DescribeShowsModels) {
   EXPECT_TRUE(has(run("describe").out, "conductor"));
   EXPECT_TRUE(has(run("describe area-light").out, "diffuse"));
   EXPECT_TRUE(has(run("describe integrator path").out, "maxdepth"));
+  EXPECT_TRUE(has(run("describe --markdown").out, "# "));
 }
 
 // Whether the process has said that it handles SIGINT, which it does while it renders.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "formats/pbrt/manual.h"
 #include "render/registry.h"
 
 namespace etd::cli {
@@ -12,6 +13,7 @@ namespace {
 
 struct Arguments {
   std::string family, name;
+  bool markdown = false;
 };
 
 // "Area-Light", "area light" and "arealight" are the same to a user.
@@ -39,6 +41,10 @@ void list(Family family, int indent) {
 }
 
 int describe_models(const Arguments& args) {
+  if (args.markdown) {
+    fmt::print("{}", pbrt_coverage_markdown());
+    return kOk;
+  }
   if (args.family.empty()) {
     for (Family family : kAllFamilies) {
       fmt::print("{}\n", family_name(family));
@@ -72,6 +78,7 @@ void add_describe(CLI::App& app, Run& run) {
       app.add_subcommand("describe", "Show models and their parameters: types, defaults, ranges, units.");
   command->add_option("family", args->family, "material, light, shape, integrator, ...");
   command->add_option("name", args->name, "a model of this family");
+  command->add_flag("--markdown", args->markdown, "write the page on the coverage of the pbrt-v4 language instead");
   command->footer(
       "Examples:\n"
       "  etendue describe                       every model in one line\n"
