@@ -5,24 +5,12 @@
 #include <algorithm>
 #include <set>
 
-#include "bsdfs/conductor.h"
-#include "bsdfs/dielectric.h"
-#include "bsdfs/lambert.h"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ETENDUE_SLOW_BUILD 1
-#endif
-#endif
+#include "slow_build.h"
 
 namespace etd {
 namespace {
 
-#ifdef ETENDUE_SLOW_BUILD
-constexpr size_t kSamples = 10000;
-#else
-constexpr size_t kSamples = 100000;
-#endif
+constexpr size_t kSamples = kSlowBuild ? 10000 : 100000;
 
 // One false alarm in 10^4 runs of the whole battery.
 BsdfBatteryOptions options_of_seed(uint64_t seed) {
@@ -51,7 +39,10 @@ TEST(BsdfExamples, CoverEveryClosure) {
   EXPECT_EQ(kinds.size(), Bsdf::kind_count());
 }
 
-// The level is right when no seed fails; run by hand with --gtest_also_run_disabled_tests.
+// The level is right when no seed fails. Result: none of 100, and of 3241 p-values 6.5 % are below 0.1, 0.6 % below
+// 0.01 and none below 10^-3 (the allowance for integration errors makes them conservative). It takes minutes: run by
+// hand with
+// --gtest_also_run_disabled_tests.
 TEST(BsdfBatterySeeds, DISABLED_NoFalseAlarmInAHundred) {
   std::vector<double> p_values;
   for (uint64_t seed = 1; seed <= 100; ++seed) {

@@ -38,6 +38,8 @@ Spectrum Light::power() const {
   return dispatch<Spectrum, Lights>(storage_, [](const auto& l) { return l.power(); });
 }
 
+uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }
+
 std::span<const ModelDecl* const> light_models() {
   static const ModelDecl* const all[] = {&ConstantInfiniteLight::decl()};
   return all;

@@ -34,6 +34,9 @@ class Light {
   // Emitted power of finite lights, W (per lane). Infinite lights have none that does not depend on the scene: theirs
   // is the power through a unit disk, over all directions.
   Spectrum power() const;
+  // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
+  uint32_t kind() const { return storage_.tag; }
+  static uint32_t kind_count();
 
  private:
   TaggedStorage<64> storage_;

@@ -35,18 +35,6 @@ std::string describe(Vec3 wo, TransportMode mode, Lobe sides) {
                      sides == kBothSides ? "" : (sides == kReflection ? " reflection only" : " transmission only"));
 }
 
-Worst::Worst(const ScatterModel& model, std::string name, double tolerance) : tolerance_(tolerance) {
-  result_.subject = model.name;
-  result_.name = std::move(name);
-}
-
-CheckResult Worst::result() const {
-  CheckResult r = result_;
-  r.statistic = worst_;
-  r.passed = worst_ <= tolerance_;
-  return r;
-}
-
 }  // namespace bsdf_checks
 
 std::vector<CheckResult> check_bsdf(const ScatterModel& model, const BsdfBatteryOptions& options) {

@@ -5,34 +5,13 @@
 #include <vector>
 
 #include "verify/battery_bsdf.h"
+#include "verify/worst.h"
 
 namespace etd::bsdf_checks {
 
 // Directions on both sides that a check must cover: perpendicular, oblique at several azimuths, grazing.
 const std::vector<Vec3>& test_directions();
 std::string describe(Vec3 wo, TransportMode mode, Lobe sides = kBothSides);
-
-// The largest deviation seen, and where.
-class Worst {
- public:
-  Worst(const ScatterModel& model, std::string name, double tolerance);
-  // `where` is called only for a new maximum. NaN is the worst of all.
-  template <class F>
-  void add(double deviation, F&& where) {
-    if (!(deviation <= worst_)) worst_ = std::isnan(deviation) ? HUGE_VAL : deviation, result_.text = where();
-  }
-  // a and b relative to the larger of them.
-  template <class F>
-  void add_relative(double a, double b, F&& where) {
-    const double scale = std::max(std::abs(a), std::abs(b));
-    add(scale > 0.0 ? std::abs(a - b) / scale : a + b, where);
-  }
-  CheckResult result() const;
-
- private:
-  CheckResult result_;
-  double worst_ = 0, tolerance_;
-};
 
 using Results = std::vector<CheckResult>;
 // Finite and non-negative for the most awkward directions and random numbers.

@@ -35,11 +35,11 @@ struct DeltaChecks {
   Worst probability, direction, sides, radiance, reciprocity;
 
   explicit DeltaChecks(const ScatterModel& m)
-      : probability(m, "delta probabilities", 2.0 / kDeltaSteps),
-        direction(m, "delta directions (Snell)", 1e-5),
-        sides(m, "delta values on chosen sides", 1e-5),
-        radiance(m, "delta radiance / importance", 1e-5),
-        reciprocity(m, "delta reciprocity", 1e-4) {}
+      : probability(m.name, "delta probabilities", 2.0 / kDeltaSteps),
+        direction(m.name, "delta directions (Snell)", 1e-5),
+        sides(m.name, "delta values on chosen sides", 1e-5),
+        radiance(m.name, "delta radiance / importance", 1e-5),
+        reciprocity(m.name, "delta reciprocity", 1e-4) {}
 };
 
 void check_direction(const ScatterModel& m, Vec3 wo, DeltaChecks& c) {

@@ -32,12 +32,12 @@ struct PointwiseChecks {
   Worst weight, density, form, sides, reciprocity, adjoint;
 
   explicit PointwiseChecks(const ScatterModel& m)
-      : weight(m, "weight * pdf = eval_cos", 1e-3),
-        density(m, "sample().pdf = pdf()", 1e-3),
-        form(m, "unit wi, lobes as declared", 1e-5),
-        sides(m, "only allowed sides", 0.0),
-        reciprocity(m, "reciprocity", 2e-3),
-        adjoint(m, "importance is adjoint", 2e-3) {}
+      : weight(m.name, "weight * pdf = eval_cos", 1e-3),
+        density(m.name, "sample().pdf = pdf()", 1e-3),
+        form(m.name, "unit wi, lobes as declared", 1e-5),
+        sides(m.name, "only allowed sides", 0.0),
+        reciprocity(m.name, "reciprocity", 2e-3),
+        adjoint(m.name, "importance is adjoint", 2e-3) {}
 };
 
 void check_sample(const ScatterModel& m, Vec3 wo, Vec3 u, TransportMode mode, Lobe sides, HashStream& rng,
@@ -70,7 +70,7 @@ void check_sample(const ScatterModel& m, Vec3 wo, Vec3 u, TransportMode mode, Lo
 }  // namespace
 
 void check_finite(const ScatterModel& m, Results& out) {
-  Worst finite(m, "finite and non-negative", 0.0);
+  Worst finite(m.name, "finite and non-negative", 0.0);
   HashStream rng(0);
   const std::vector<Vec3> directions = awkward_directions();
   for (TransportMode mode : kModes) {

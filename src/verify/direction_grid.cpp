@@ -100,14 +100,15 @@ size_t DirectionGrid::find(Vec3 w) const {
   return nodes_[n].cell;
 }
 
-std::array<double, 4> DirectionGrid::integrate(size_t i, const std::function<std::array<double, 4>(Vec3)>& f) const {
+std::array<double, 4> DirectionGrid::integrate(size_t i, const std::function<std::array<double, 4>(Vec3)>& f,
+                                               double absolute, bool jumps) const {
   const auto integrand = [&f](double theta, double phi) {
     const double s = std::sin(theta);
     std::array<double, 4> v = f(to_float(Vec3d{s * std::cos(phi), s * std::sin(phi), std::cos(theta)}));
     for (double& x : v) x *= s;
     return v;
   };
-  return integrate_rect<4>(integrand, cells_[i], 1e-6, 1e-3);
+  return integrate_rect<4>(integrand, cells_[i], absolute, 1e-3, jumps ? 2 : 0);
 }
 
 std::string DirectionGrid::describe_worst(const std::vector<double>& observed,

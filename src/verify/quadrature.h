@@ -32,7 +32,8 @@ Values<N> gauss_rect(F& f, const Rect& r) {
 }
 
 template <size_t N, class F>
-Values<N> refine_rect(F& f, const Rect& r, const Values<N>& coarse, double absolute, double relative, int depth) {
+Values<N> refine_rect(F& f, const Rect& r, const Values<N>& coarse, double absolute, double relative, int forced,
+                      int depth) {
   const double mx = 0.5 * (r.x0 + r.x1), my = 0.5 * (r.y0 + r.y1);
   const Rect quarters[4] = {{r.x0, mx, r.y0, my}, {mx, r.x1, r.y0, my}, {r.x0, mx, my, r.y1}, {mx, r.x1, my, r.y1}};
   Values<N> parts[4], fine{};
@@ -42,10 +43,10 @@ Values<N> refine_rect(F& f, const Rect& r, const Values<N>& coarse, double absol
   }
   bool converged = true;
   for (size_t n = 0; n < N; ++n) converged &= std::abs(fine[n] - coarse[n]) <= absolute + relative * std::abs(fine[n]);
-  if (converged || depth == 0) return fine;
+  if ((converged && forced <= 0) || depth == 0) return fine;
   fine = {};
   for (int q = 0; q < 4; ++q) {
-    const Values<N> v = refine_rect<N>(f, quarters[q], parts[q], 0.5 * absolute, relative, depth - 1);
+    const Values<N> v = refine_rect<N>(f, quarters[q], parts[q], 0.5 * absolute, relative, forced - 1, depth - 1);
     for (size_t n = 0; n < N; ++n) fine[n] += v[n];
   }
   return fine;
@@ -54,11 +55,13 @@ Values<N> refine_rect(F& f, const Rect& r, const Values<N>& coarse, double absol
 }  // namespace detail
 
 // The integrals over r of the N functions f(x, y) -> std::array<double, N>: splits in four until a split changes each
-// by less than absolute + relative * value, at most `depth` times. A feature narrower than the first 45 nodes are apart
-// can be missed: choose r by where the function is.
+// by less than absolute + relative * value, at most `depth` times. A feature narrower than the first nodes are apart
+// can be missed, as can a jump that cuts off a corner: choose r by where the function is, and split `forced` more times
+// before trusting the comparison where it has jumps.
 template <size_t N, class F>
-std::array<double, N> integrate_rect(F&& f, const Rect& r, double absolute, double relative, int depth = 10) {
-  return detail::refine_rect<N>(f, r, detail::gauss_rect<N>(f, r), absolute, relative, depth);
+std::array<double, N> integrate_rect(F&& f, const Rect& r, double absolute, double relative, int forced = 0,
+                                     int depth = 10) {
+  return detail::refine_rect<N>(f, r, detail::gauss_rect<N>(f, r), absolute, relative, forced, depth);
 }
 
 }  // namespace etd

@@ -1,0 +1,25 @@
+// The lights that are tested: one list, which the battery walks through. A new light adds its lines here and is tested
+// from then on.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lights/light.h"
+#include "shapes/mesh.h"
+#include "shapes/sphere.h"
+
+namespace etd {
+
+struct LightExample {
+  std::string name;  // light, surface and parameters; unique
+  Light light;
+  // The surface it is on, as it refers to: one triangle, one sphere, or none. Near the origin, at most 3 away.
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Sphere> sphere;
+};
+
+// The same list at every call, in a fixed order.
+std::span<const LightExample> light_examples();
+
+}  // namespace etd

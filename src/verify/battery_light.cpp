@@ -1,0 +1,228 @@
+#include "verify/battery_light.h"
+
+#include <fmt/format.h>
+
+#include "accel/accelerator.h"
+#include "accel/spawn.h"
+#include "accel/surface.h"
+#include "core/frame.h"
+#include "core/hash.h"
+#include "core/warp.h"
+#include "verify/direction_grid.h"
+#include "verify/worst.h"
+
+namespace etd {
+
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+// Cells that the light's outline crosses are integrated to about this share of the whole.
+constexpr double kIntegrationError = 1e-3;
+constexpr double kMinExpected = 20.0;
+constexpr size_t kCells = 64;
+
+std::string describe(Point3 p) { return fmt::format("seen from ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); }
+
+// In front of, behind, beside, near, far from and (for spheres) within the examples.
+const std::vector<Point3>& test_points() {
+  static const std::vector<Point3> points{{0.2f, 0.1f, 2.0f},   {1.5f, 0.5f, 0.6f},  {-0.7f, -1.0f, -1.2f},
+                                          {0.1f, 0.05f, 0.25f}, {-6.0f, 3.0f, 5.0f}, {0.0f, -0.2f, -0.3f}};
+  return points;
+}
+
+// What a ray finds: the light's radiance back along it, and where.
+struct Seen {
+  Spectrum radiance;
+  std::optional<SurfacePoint> point;  // nothing for infinite lights and misses
+};
+
+class LightRays {
+ public:
+  explicit LightRays(const LightModel& model) : model_(model), accelerator_(model.geometry) {}
+
+  Seen look(const Ray& ray) const {
+    Seen seen;
+    Hit hit;
+    if (accelerator_.intersect(ray, hit)) seen.point = surface_point(model_.geometry, hit);
+    if (seen.point || model_.infinite) seen.radiance = model_.emitted(seen.point ? &*seen.point : nullptr, -ray.d);
+    return seen;
+  }
+  // Density of light samples along wi, of those that are visible and carry light.
+  double pdf_visible(Point3 p, Vec3 wi) const {
+    const Seen seen = look({p, wi});
+    if (is_black(seen.radiance)) return 0.0;
+    return static_cast<double>(model_.pdf_li(p, wi, seen.point ? &*seen.point : nullptr));
+  }
+  // Whether the light's own surface is not in the way of the sample.
+  bool visible(Point3 p, const LightSample& s) const {
+    return model_.infinite || !accelerator_.occluded({p, s.on_light.p - p, 1.0f - 1e-4f});
+  }
+
+ private:
+  const LightModel& model_;
+  Accelerator accelerator_;
+};
+
+void check_samples(const LightModel& m, const LightRays& rays, Point3 p, uint64_t seed, Worst& finite, Worst& sound) {
+  HashStream numbers(seed);
+  const auto where = [&] { return describe(p); };
+  for (int i = 0; i < 2000; ++i) {
+    const auto s = m.sample_li(p, {numbers.next_float(), numbers.next_float()});
+    if (!s) continue;
+    const bool positive = s->pdf > 0.0f && std::isfinite(s->pdf) && !is_black(s->radiance);
+    finite.add(positive && is_finite(s->radiance) && is_finite(s->wi) ? 0.0 : 1.0, where);
+    const SurfacePoint* on_light = m.infinite ? nullptr : &s->on_light;
+    sound.add(std::abs(length(s->wi) - 1.0f), where);
+    sound.add_relative(m.pdf_li(p, s->wi, on_light), s->pdf, where);
+    const Spectrum emitted = m.emitted(on_light, -s->wi);
+    for (int lane = 0; lane < 3; ++lane) sound.add_relative(emitted[lane], s->radiance[lane], where);
+    if (!on_light) continue;
+    sound.add(length(normalize(s->on_light.p - p) - s->wi), where);
+    // Where the ray along wi arrives the density is the same, unless it grazes.
+    if (std::abs(dot(s->wi, s->on_light.ng)) > 0.1f && rays.visible(p, *s))
+      sound.add_relative(rays.pdf_visible(p, s->wi), s->pdf, where);
+  }
+}
+
+// Histogram of visible samples against pdf_li.
+void check_density(const LightModel& m, const LightRays& rays, Point3 p, size_t samples, uint64_t seed,
+                   WorstP& chi_square, WorstP& mass) {
+  const auto draw = [&](HashStream& numbers) -> std::optional<Vec3> {
+    const float x = numbers.next_float(), y = numbers.next_float();
+    const auto s = m.sample_li(p, {x, y});
+    if (!s || !rays.visible(p, *s)) return {};
+    return s->wi;
+  };
+  std::vector<Vec3> pilots;
+  HashStream pilot_numbers(hash_combine(seed, 1)), numbers(hash_combine(seed, 2));
+  for (size_t i = 0; i < samples / 2; ++i)
+    if (const auto wi = draw(pilot_numbers)) pilots.push_back(*wi);
+  const DirectionGrid grid(pilots, std::max<size_t>(samples / 2 / kCells, 1));
+
+  std::vector<double> observed(grid.cell_count(), 0.0), expected;
+  double elsewhere = 0, integral = 0;
+  for (size_t i = 0; i < samples; ++i) {
+    const auto wi = draw(numbers);
+    (wi ? observed[grid.find(*wi)] : elsewhere) += 1.0;
+  }
+  const double n = static_cast<double>(samples);
+  for (size_t i = 0; i < grid.cell_count(); ++i) {
+    const auto cell = grid.integrate(
+        i, [&](Vec3 wi) { return std::array<double, 4>{rays.pdf_visible(p, wi)}; }, 1e-4, true);
+    expected.push_back(n * cell[0]);
+    integral += cell[0];
+  }
+  const std::string picture = grid.describe_worst(observed, expected);
+  observed.push_back(elsewhere);
+  expected.push_back(std::max(0.0, n * (1.0 - integral)));
+  const TestResult chi = chi_square_test(observed, expected, kMinExpected);
+  chi_square.add(chi.statistic, chi.p_value, [&] {
+    return fmt::format("{}, {} dof{}", describe(p), chi.dof, chi.p_value < 1e-4 ? "\n" + picture : "");
+  });
+  const double inside = 1.0 - elsewhere / n, q = std::clamp(integral, 0.0, 1.0);
+  const double z = (inside - integral) / std::sqrt(q * (1.0 - q) / n + sqr(kIntegrationError));
+  mass.add(z, normal_two_sided(z),
+           [&] { return fmt::format("{}: integral {:.6f}, visible share {:.6f}", describe(p), integral, inside); });
+}
+
+// The integral of radiance over directions, weighted by 1, by x and by a mixture, estimated in both ways.
+void check_radiance(const LightModel& m, const LightRays& rays, Point3 p, size_t samples, uint64_t seed, WorstP& out) {
+  HashStream numbers(seed);
+  RunningStats by_light[3], by_rays[3];
+  const auto add = [](RunningStats(&stats)[3], Vec3 wi, double value) {
+    stats[0].add(value);
+    stats[1].add(value * wi.x);
+    stats[2].add(value * (wi.y + 0.5 * wi.z));
+  };
+  for (size_t i = 0; i < samples; ++i) {
+    const float x = numbers.next_float(), y = numbers.next_float();
+    const auto s = m.sample_li(p, {x, y});
+    const bool counts = s && rays.visible(p, *s);
+    add(by_light, counts ? s->wi : Vec3{}, counts ? static_cast<double>(mean_value(s->radiance)) / s->pdf : 0.0);
+  }
+  for (size_t i = 0; i < 4 * samples; ++i) {
+    const float x = numbers.next_float(), y = numbers.next_float();
+    const Vec3 wi = sample_sphere_uniform({x, y});
+    add(by_rays, wi, static_cast<double>(mean_value(rays.look({p, wi}).radiance)) / pdf_sphere_uniform());
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double a = by_light[i].mean(), b = by_rays[i].mean();
+    const double error2 = by_light[i].variance_of_mean() + by_rays[i].variance_of_mean() + sqr(1e-5 * (a + b));
+    const double z = error2 > 0.0 ? (a - b) / std::sqrt(error2) : 0.0;
+    out.add(z, normal_two_sided(z),
+            [&] { return fmt::format("{}, weight {}: by light {:.6g}, by rays {:.6g}", describe(p), i, a, b); });
+  }
+}
+
+// Along lines spread evenly over positions and directions, every crossing with the light counts what it sends back.
+// Lines through a sphere of radius r carry 4 pi^2 r^2 times their mean radiance.
+void check_power(const LightModel& m, const LightRays& rays, size_t samples, uint64_t seed, WorstP& out) {
+  constexpr float kRadius = 3.0f;
+  HashStream numbers(seed);
+  RunningStats lanes[3];
+  for (size_t i = 0; i < 4 * samples; ++i) {
+    const float x = numbers.next_float(), y = numbers.next_float(), z = numbers.next_float(), w = numbers.next_float();
+    const Vec3 n = sample_sphere_uniform({x, y});
+    const Vec3 d = Frame::from_z(-n).to_world(sample_hemisphere_cosine({z, w}));
+    const Vec3 o = n * kRadius;
+    Spectrum sum;
+    Seen seen = rays.look({{o.x, o.y, o.z}, d});
+    sum += seen.radiance;
+    while (seen.point) {
+      seen = rays.look(spawn_ray(*seen.point, d));
+      sum += seen.radiance;
+    }
+    for (int lane = 0; lane < 3; ++lane) lanes[lane].add(static_cast<double>(sum[lane]));
+  }
+  const double scale = 4.0 * kPiD * kPiD * (m.infinite ? 1.0 : kRadius * kRadius);
+  for (int lane = 0; lane < 3; ++lane) {
+    const double power = m.power[lane], flux = lanes[lane].mean() * scale;
+    const double error2 = sqr(scale) * lanes[lane].variance_of_mean() + sqr(1e-5 * power);
+    const double z = (flux - power) / std::sqrt(error2);
+    out.add(z, normal_two_sided(z),
+            [&] { return fmt::format("lane {}: power {:.6g}, flux {:.6g}", lane, power, flux); });
+  }
+}
+
+}  // namespace
+
+LightModel light_model(const LightExample& example) {
+  const Light light = example.light;
+  LightModel m;
+  m.name = example.name;
+  if (example.mesh) {
+    m.geometry.meshes.push_back(*example.mesh);
+    m.geometry.groups[0].meshes.push_back(0);
+  }
+  if (example.sphere) {
+    m.geometry.spheres.push_back(*example.sphere);
+    m.geometry.groups[0].sphere_end = 1;
+  }
+  m.power = light.power();
+  m.infinite = light.is_infinite();
+  m.sample_li = [light](Point3 p, Vec2 u) { return light.sample_li(p, u); };
+  m.pdf_li = [light](Point3 p, Vec3 wi, const SurfacePoint* s) { return light.pdf_li(p, wi, s); };
+  m.emitted = [light](const SurfacePoint* s, Vec3 w) { return light.emitted(s, w); };
+  return m;
+}
+
+std::vector<CheckResult> check_light(const LightModel& m, const LightBatteryOptions& options) {
+  const LightRays rays(m);
+  Worst finite(m.name, "finite and positive", 0.0), sound(m.name, "sample = pdf_li, emitted", 2e-3);
+  WorstP chi_square(m.name, "samples follow pdf_li"), mass(m.name, "integral of pdf_li"),
+      radiance(m.name, "radiance of all directions"), power(m.name, "power = flux");
+  uint64_t run = 0;
+  for (const Point3& p : test_points()) {
+    const uint64_t seed = hash_combine(options.seed, ++run);
+    check_samples(m, rays, p, hash_combine(seed, 1), finite, sound);
+    check_density(m, rays, p, options.samples, hash_combine(seed, 2), chi_square, mass);
+    check_radiance(m, rays, p, options.samples, hash_combine(seed, 3), radiance);
+  }
+  check_power(m, rays, options.samples, hash_combine(options.seed, 1000), power);
+  std::vector<CheckResult> results{finite.result(), sound.result(),    chi_square.result(),
+                                   mass.result(),   radiance.result(), power.result()};
+  judge(results, options.family_level);
+  return results;
+}
+
+}  // namespace etd

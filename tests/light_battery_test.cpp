@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "light_sampling/power_light_sampler.h"
+#include "slow_build.h"
+#include "verify/battery_light.h"
+
+namespace etd {
+namespace {
+
+constexpr size_t kSamples = kSlowBuild ? 4000 : 40000;
+
+// One false alarm in 10^4 runs of the whole battery.
+LightBatteryOptions options_of_seed(uint64_t seed) {
+  return {kSamples, seed, 1e-4 / static_cast<double>(light_examples().size())};
+}
+
+class LightBattery : public testing::TestWithParam<size_t> {};
+
+TEST_P(LightBattery, Passes) {
+  for (const CheckResult& r : check_light(light_model(light_examples()[GetParam()]), options_of_seed(1)))
+    EXPECT_TRUE(r.passed) << to_string(r);
+}
+
+std::string test_name(const testing::TestParamInfo<size_t>& info) {
+  std::string name = light_examples()[info.param].name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, LightBattery, testing::Range(size_t{0}, light_examples().size()), test_name);
+
+TEST(LightExamples, CoverEveryLight) {
+  std::set<uint32_t> kinds;
+  for (const LightExample& e : light_examples()) kinds.insert(e.light.kind());
+  EXPECT_EQ(kinds.size(), Light::kind_count());
+}
+
+TEST(LightBatterySeeds, DISABLED_NoFalseAlarmInThirty) {
+  for (uint64_t seed = 1; seed <= 30; ++seed)
+    for (const LightExample& e : light_examples())
+      for (const CheckResult& r : check_light(light_model(e), options_of_seed(seed)))
+        EXPECT_TRUE(r.passed) << "seed " << seed << ": " << to_string(r);
+}
+
+std::set<std::string> failures(const LightModel& model) {
+  std::set<std::string> names;
+  for (const CheckResult& r : check_light(model, {20000, 1, 1e-6}))
+    if (!r.passed) names.insert(r.name);
+  return names;
+}
+
+LightModel example(const std::string& name) {
+  for (const LightExample& e : light_examples())
+    if (e.name == name) return light_model(e);
+  ADD_FAILURE() << "no example " << name;
+  return {};
+}
+
+// Scales the density that both functions tell.
+LightModel with_density_factor(LightModel m, float factor) {
+  m.pdf_li = [factor, pdf = m.pdf_li](Point3 p, Vec3 wi, const SurfacePoint* s) { return factor * pdf(p, wi, s); };
+  m.sample_li = [factor, sample = m.sample_li](Point3 p, Vec2 u) {
+    auto s = sample(p, u);
+    if (s) s->pdf *= factor;
+    return s;
+  };
+  return m;
+}
+
+TEST(LightBatteryFaults, DensityTwoPercentOff) {
+  for (const char* name : {"diffuse(triangle, two-sided)", "infinite(constant)"})
+    EXPECT_TRUE(failures(with_density_factor(example(name), 1.02f)).count("integral of pdf_li")) << name;
+}
+
+TEST(LightBatteryFaults, DensityPerAreaTakenForSolidAngle) {
+  LightModel m = example("diffuse(triangle, two-sided)");
+  m.pdf_li = [](Point3, Vec3, const SurfacePoint*) { return 0.5f; };
+  m.sample_li = [sample = m.sample_li](Point3 p, Vec2 u) {
+    auto s = sample(p, u);
+    if (s) s->pdf = 0.5f;
+    return s;
+  };
+  const auto f = failures(m);
+  EXPECT_TRUE(f.count("samples follow pdf_li"));
+  EXPECT_TRUE(f.count("radiance of all directions"));
+}
+
+TEST(LightBatteryFaults, EmitsOnTheWrongSide) {
+  LightModel m = example("diffuse(triangle)");
+  m.emitted = [](const SurfacePoint* s, Vec3 w) { return dot(s->ng, w) < 0.0f ? Spectrum(1.0f) : Spectrum(); };
+  EXPECT_TRUE(failures(m).count("radiance of all directions"));
+}
+
+TEST(LightBatteryFaults, PowerOfOneSideOnly) {
+  LightModel m = example("diffuse(sphere, two-sided)");
+  m.power = m.power * 0.5f;
+  EXPECT_EQ(failures(m), (std::set<std::string>{"power = flux"}));
+}
+
+// Walks evenly through the numbers: every light is chosen as often as its probability says.
+TEST(PowerLightSampler, ChoosesByItsProbabilities) {
+  std::vector<Light> lights;
+  for (const LightExample& e : light_examples()) lights.push_back(e.light);
+  const PowerLightSampler sampler(lights);
+  constexpr int kSteps = 1 << 20;
+  std::vector<double> share(lights.size(), 0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    const auto choice = sampler.sample((static_cast<float>(i) + 0.5f) / kSteps);
+    ASSERT_TRUE(choice);
+    ASSERT_EQ(choice->probability, sampler.probability(choice->light));
+    share[choice->light] += 1.0 / kSteps;
+  }
+  double finite_power = 0;
+  for (const Light& l : lights)
+    if (!l.is_infinite()) finite_power += luminance(l.power());
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    EXPECT_NEAR(share[i], sampler.probability(i), 1e-5) << light_examples()[i].name;
+    const double expected = lights[i].is_infinite() ? PowerLightSampler::kInfiniteShare
+                                                    : (1.0 - PowerLightSampler::kInfiniteShare) *
+                                                          luminance(lights[i].power()) / finite_power;
+    EXPECT_NEAR(sampler.probability(i), expected, 1e-5) << light_examples()[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace etd
