@@ -64,6 +64,16 @@ TEST(Statistics, WelchByHand) {
   EXPECT_EQ(welch_test(stats_of({1, 1}), stats_of({2, 2})).p_value, 0.0);
 }
 
+TEST(Statistics, TTestByHand) {
+  // Mean 3, variance of the mean 2.5 / 5.
+  const TestResult r = t_test(stats_of({1, 2, 3, 4, 5}), 4.0);
+  EXPECT_NEAR(r.statistic, -1.0 / std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(r.dof, 4.0);
+  EXPECT_NEAR(r.p_value, 2.0 * student_t_sf(std::sqrt(2.0), 4.0), 1e-12);
+  EXPECT_EQ(t_test(stats_of({2, 2}), 2.0).p_value, 1.0);
+  EXPECT_EQ(t_test(stats_of({2, 2}), 2.5).p_value, 0.0);
+}
+
 TEST(Statistics, ChiSquarePoolsSmallCells) {
   const std::vector<double> expected{50, 1, 2, 40, 3, 0.5}, observed{45, 2, 1, 47, 1, 0.5};
   const TestResult r = chi_square_test(observed, expected, 6.0);

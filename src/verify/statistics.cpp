@@ -102,6 +102,18 @@ void RunningStats::add(double x) {
   m2_ += delta * (x - mean_);
 }
 
+TestResult t_test(const RunningStats& sample, double expected) {
+  const double variance = sample.variance_of_mean(), difference = sample.mean() - expected;
+  if (variance == 0.0)
+    return difference == 0.0 ? TestResult{}
+                             : TestResult{std::copysign(std::numeric_limits<double>::infinity(), difference), 0.0, 0.0};
+  TestResult result;
+  result.statistic = difference / std::sqrt(variance);
+  result.dof = static_cast<double>(sample.count() - 1);
+  result.p_value = student_t_two_sided(result.statistic, result.dof);
+  return result;
+}
+
 TestResult welch_test(const RunningStats& a, const RunningStats& b) {
   const double va = a.variance_of_mean(), vb = b.variance_of_mean(), difference = a.mean() - b.mean();
   TestResult result;

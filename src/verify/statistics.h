@@ -50,6 +50,10 @@ struct TestResult {
   double p_value = 1;
 };
 
+// Whether the mean of normally distributed numbers is `expected` (Student 1908); two-sided. Without any variance the
+// answer is 1 for an equal mean and 0 otherwise.
+TestResult t_test(const RunningStats& sample, double expected);
+
 // Whether two means are equal, of samples whose variances may differ (Welch 1947); two-sided. Without any variance the
 // answer is 1 for equal means and 0 otherwise.
 TestResult welch_test(const RunningStats& a, const RunningStats& b);
