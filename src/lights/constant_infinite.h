@@ -24,7 +24,7 @@ struct ConstantInfiniteLight {
     return d;
   }
   static ConstantInfiniteLight create(const ParamReader& p) {
-    return {spectrum_value(p, "L") * static_cast<float>(p.number("scale"))};
+    return {emission_value(p, "L") * static_cast<float>(p.number("scale"))};
   }
 
   bool is_infinite() const { return true; }

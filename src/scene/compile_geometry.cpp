@@ -226,7 +226,7 @@ class GeometryCompiler {
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const ParamReader p(diffuse_area_decl(), use, diagnostics_);
-      const Spectrum radiance = spectrum_value(p, "L") * static_cast<float>(p.number("scale"));
+      const Spectrum radiance = emission_value(p, "L") * static_cast<float>(p.number("scale"));
       const bool two_sided = p.boolean("twosided");
       SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.sphere_bindings[e.index];
       binding.first_light = static_cast<uint32_t>(scene_.lights.size());

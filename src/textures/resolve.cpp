@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "spectrum/named.h"
 
 namespace etd {
@@ -13,55 +16,66 @@ Spectrum from_numbers(const std::vector<double>& v) {
   return Spectrum::rgb(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
 }
 
-Spectrum from_default(const ParamDefault& d) {
+// What a spectrum stands for, which decides what becomes of it in three lanes (spectrum/colorimetry.h).
+enum class Role : uint8_t { kReflectance, kEmission };
+
+Spectrum to_rgb(const SpectralFunction& f, Role role) {
+  return role == Role::kEmission ? emission_rgb(f) : reflectance_rgb(f);
+}
+
+Spectrum from_default(const ParamDefault& d, Role role) {
   if (const auto* number = std::get_if<double>(&d)) return Spectrum(static_cast<float>(*number));
   if (const auto* numbers = std::get_if<std::vector<double>>(&d)) return from_numbers(*numbers);
-  if (const auto* name = std::get_if<std::string>(&d)) return named_spectrum(*name).value_or(Spectrum(1.0f));
+  if (const auto* name = std::get_if<std::string>(&d))
+    if (const auto named = named_spectrum(*name)) return to_rgb(*named, role);
   return Spectrum(0.0f);
 }
 
-// What stands in for a spectrum that has no RGB meaning yet.
-Spectrum unsupported_spectrum(const Param& p, const std::string& what, float substitute, Diagnostics& diagnostics) {
-  diagnostics.unsupported(p.value_loc, what, fmt::format("the constant {:g}", substitute));
-  return Spectrum(substitute);
+// Pairs of a wavelength and a value. A reflectance that is the same at all of them is the same at all others, too.
+Spectrum from_samples(const std::vector<double>& pairs, Role role) {
+  std::vector<double> nm, values;
+  for (size_t i = 0; i + 1 < pairs.size(); i += 2) nm.push_back(pairs[i]), values.push_back(pairs[i + 1]);
+  const bool flat = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+  if (flat && role == Role::kReflectance) return Spectrum(static_cast<float>(values[0]));
+  return to_rgb([&](double at) { return interpolate(nm, values, at, flat); }, role);
 }
 
-Spectrum from_param(const Param& p, const Spectrum& fallback, Diagnostics& diagnostics) {
+Spectrum from_param(const Param& p, Role role, const Spectrum& fallback, Diagnostics& diagnostics) {
   switch (p.kind) {
     case ParamKind::kFloat:
     case ParamKind::kRgb:
       return from_numbers(p.numbers);
     case ParamKind::kBlackbody:
-      return unsupported_spectrum(p, "a blackbody spectrum", 1.0f, diagnostics);
+      return to_rgb([&](double nm) { return blackbody(p.numbers[0], nm); }, role);
     case ParamKind::kSpectrum:
       break;
     default:
       return fallback;
   }
-  if (!p.strings.empty()) {
-    if (const auto named = named_spectrum(p.strings[0])) return *named;
-    diagnostics.unsupported(p.value_loc, fmt::format("the named spectrum \"{}\"", p.strings[0]),
-                            "the parameter's default");
-    return fallback;
-  }
-  double mean = 0.0;
-  bool constant = true;
-  for (size_t i = 1; i < p.numbers.size(); i += 2) {
-    mean += p.numbers[i] * 2.0 / static_cast<double>(p.numbers.size());
-    constant = constant && p.numbers[i] == p.numbers[1];
-  }
-  if (constant) return Spectrum(static_cast<float>(mean));
-  return unsupported_spectrum(p, "a spectrum sampled at wavelengths", static_cast<float>(mean), diagnostics);
+  if (p.strings.empty()) return from_samples(p.numbers, role);
+  if (const auto named = named_spectrum(p.strings[0])) return to_rgb(*named, role);
+  const std::string all = named_spectra();
+  diagnostics.error(p.value_loc, fmt::format("there is no spectrum \"{}\"", p.strings[0]),
+                    fmt::format("valid: a file of wavelengths and values, or one of {}", all));
+  return fallback;
+}
+
+Spectrum value_of(const ParamReader& params, std::string_view name, Role role) {
+  const ParamDecl& d = params.declaration(name);
+  const Spectrum fallback = from_default(d.default_value, role);
+  const Param* p = params.given(name);
+  const Spectrum value = p ? from_param(*p, role, fallback, params.diagnostics()) : fallback;
+  return d.clamp ? clamp(value, static_cast<float>(d.min), static_cast<float>(d.max)) : value;
 }
 
 }  // namespace
 
 Spectrum spectrum_value(const ParamReader& params, std::string_view name) {
-  const ParamDecl& d = params.declaration(name);
-  const Spectrum fallback = from_default(d.default_value);
-  const Param* p = params.given(name);
-  const Spectrum value = p ? from_param(*p, fallback, params.diagnostics()) : fallback;
-  return d.clamp ? clamp(value, static_cast<float>(d.min), static_cast<float>(d.max)) : value;
+  return value_of(params, name, Role::kReflectance);
+}
+
+Spectrum emission_value(const ParamReader& params, std::string_view name) {
+  return value_of(params, name, Role::kEmission);
 }
 
 SpectrumSource TextureBuilder::spectrum(const ParamReader& params, std::string_view name) const {

@@ -13,8 +13,10 @@
 namespace etd {
 
 // The RGB value of a spectrum parameter (rgb, float, spectrum, blackbody), or of its declared default, clamped where
-// the declaration says so. Kinds that have no RGB meaning yet are reported as unsupported.
+// the declaration says so. Spectra become the mean seen under D65 (reflectance_rgb); unknown names are errors.
 Spectrum spectrum_value(const ParamReader& params, std::string_view name);
+// The same for emitted light: rgb and float as they are, spectra and blackbodies at luminance 1 (emission_rgb).
+Spectrum emission_value(const ParamReader& params, std::string_view name);
 
 // The textures built so far by name, and the means to build more.
 class TextureBuilder {

@@ -9,6 +9,7 @@
 
 #include "core/transform.h"
 #include "params/param.h"
+#include "spectrum/color_space.h"
 
 namespace etd::pbrt {
 
@@ -28,8 +29,9 @@ struct GraphicsState {
   TransformPair ctm;
   bool start_active = true, end_active = true;  // which of the two the transform directives change
   bool reverse_orientation = false;
-  int material = -1;    // index into the description's materials
-  int area_light = -1;  // index into the description's area lights
+  ColorSpace color_space = ColorSpace::kSrgb;  // of rgb values that follow
+  int material = -1;                           // index into the description's materials
+  int area_light = -1;                         // index into the description's area lights
   std::array<std::vector<Param>, kAttributeTargets.size()> defaults;
 
   // ctm = ctm * t, for the active ones.

@@ -158,9 +158,9 @@ void accelerator(Parser& p, const Token& d) {
 
 void color_space(Parser& p, const Token& d) {
   const auto name = p.string_argument(d, "the name of a color space");
-  if (!name || name->text == "srgb") return;
-  if (is_one_of(name->text, {"aces2065-1", "dci-p3", "rec2020"}))
-    p.diagnostics.unsupported(name->loc, fmt::format("color space \"{}\"", name->text), "srgb");
+  if (!name) return;
+  if (const auto space = find_color_space(name->value()))
+    p.state.color_space = *space;
   else
     p.diagnostics.error(name->loc, fmt::format("unknown color space \"{}\"", name->text),
                         "valid: srgb, aces2065-1, dci-p3, rec2020");

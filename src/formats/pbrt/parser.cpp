@@ -129,6 +129,12 @@ std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::str
   return use;
 }
 
+std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::string_view what, ColorRole role) {
+  std::optional<ModelUse> use = model_arguments(directive, what);
+  if (use) convert_colors(use->params, role, state.color_space, scene.folder, diagnostics);
+  return use;
+}
+
 std::optional<Transform> Parser::placement(const SourceLoc& loc, std::string_view what) {
   if (state.ctm.is_moving())
     diagnostics.unsupported(loc, fmt::format("motion blur (this {} has two transforms)", what), "the start transform");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/pbrt/color_values.h"
 #include "formats/pbrt/graphics_state.h"
 #include "formats/pbrt/names.h"
 #include "formats/pbrt/token_stream.h"
@@ -33,6 +34,8 @@ class Parser {
   std::vector<Param> parameters();
   // A model's name and its parameters.
   std::optional<ModelUse> model_arguments(const Token& directive, std::string_view what);
+  // The same, with colours of the current ColorSpace.
+  std::optional<ModelUse> model_arguments(const Token& directive, std::string_view what, ColorRole role);
 
   // The current transform for something placed in the world; reports motion and, returning nothing, singular ones.
   std::optional<Transform> placement(const SourceLoc& loc, std::string_view what);

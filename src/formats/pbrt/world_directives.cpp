@@ -25,14 +25,14 @@ ModelUse supported_material(Parser& p, ModelUse use) {
 }
 
 void material(Parser& p, const Token& d) {
-  std::optional<ModelUse> use = p.model_arguments(d, "the name of a material");
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of a material", ColorRole::kReflectance);
   if (!use) return;
   p.state.material = static_cast<int>(p.scene.materials.size());
   p.scene.materials.push_back({"", supported_material(p, std::move(*use))});
 }
 
 void make_named_material(Parser& p, const Token& d) {
-  std::optional<ModelUse> use = p.model_arguments(d, "the name of the new material");
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of the new material", ColorRole::kReflectance);
   if (!use) return;
   const std::string name = std::exchange(use->model, std::string());
   const SourceLoc loc = use->loc;
@@ -73,7 +73,7 @@ void shape(Parser& p, const Token& d) {
 }
 
 void light_source(Parser& p, const Token& d) {
-  std::optional<ModelUse> use = p.model_arguments(d, "the name of a light");
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of a light", ColorRole::kEmission);
   if (!use) return;
   p.add_defaults(AttributeTarget::kLight, Family::kLight, *use);
   std::optional<ModelUse> supported = make_supported(Family::kLight, std::move(*use), p.diagnostics);
@@ -82,7 +82,7 @@ void light_source(Parser& p, const Token& d) {
 }
 
 void area_light_source(Parser& p, const Token& d) {
-  std::optional<ModelUse> use = p.model_arguments(d, "the name of an area light");
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of an area light", ColorRole::kEmission);
   if (!use) return;
   p.add_defaults(AttributeTarget::kLight, Family::kAreaLight, *use);
   std::optional<ModelUse> supported = make_supported(Family::kAreaLight, std::move(*use), p.diagnostics);
@@ -97,7 +97,7 @@ void texture(Parser& p, const Token& d) {
   if (!name) return;
   const auto kind = p.string_argument(d, "\"float\" or \"spectrum\"");
   if (!kind) return;
-  std::optional<ModelUse> use = p.model_arguments(d, "the name of a texture model");
+  std::optional<ModelUse> use = p.model_arguments(d, "the name of a texture model", ColorRole::kReflectance);
   if (!use) return;
   if (kind->text != "float" && kind->text != "spectrum")
     p.diagnostics.error(kind->loc,
@@ -117,6 +117,9 @@ void attribute(Parser& p, const Token& d) {
   if (!use) return;
   for (size_t i = 0; i < kAttributeTargets.size(); ++i) {
     if (kAttributeTargets[i] != use->model) continue;
+    const bool light = i == static_cast<size_t>(AttributeTarget::kLight);
+    convert_colors(use->params, light ? ColorRole::kEmission : ColorRole::kReflectance, p.state.color_space,
+                   p.scene.folder, p.diagnostics);
     // A later default of the same name replaces an earlier one.
     std::vector<Param>& defaults = p.state.defaults[i];
     defaults.insert(defaults.begin(), std::make_move_iterator(use->params.begin()),
