@@ -82,6 +82,8 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
                                                         {"render s.pbrt --size 65536x65536", "the film needs"},
                                                         {"render s.pbrt --spp many", "--spp"},
                                                         {"render s.pbrt --set integrator.mode", "not NAME=VALUE"},
+                                                        {"render s.pbrt --time soon", "is no time"},
+                                                        {"render s.pbrt --error 0", "must be positive"},
                                                         {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
                                                         {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
                                                         {"render s.pbrt -o a.gif", "cannot write a.gif"},
@@ -113,6 +115,20 @@ TEST_F(Cli, RendersAllLayersAndAPicture) {
   EXPECT_EQ(stats["paths"], 24 * 16 * 6);
   EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 6);
   EXPECT_EQ(stats["spp"], 6);
+}
+
+TEST_F(Cli, StopsWhenTheTimeIsOverOrTheErrorSmall) {
+  folder_.write("s.pbrt", kScene);
+  Finished done = run("render s.pbrt -o a.exr --time 0.3s");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(has(done.out, " spp (time is over), ")) << done.out;
+  done = run("render s.pbrt -o b.exr --error 0.5 --time 1h");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(has(done.out, "24x16, 32 spp (error reached), ")) << done.out;
+  const LayersResult read = read_layers(folder_.path() / "b.exr");
+  ASSERT_TRUE(read.image) << read.error;
+  EXPECT_EQ(std::get<std::string>(*read.image->find_metadata("etendue:stopped_by")), "error");
+  EXPECT_TRUE(has(std::get<std::string>(*read.image->find_metadata("etendue:biased")), "adaptive stopping"));
 }
 
 TEST_F(Cli, WithoutAnOutputTheFilmNamesItInThisFolder) {

@@ -34,8 +34,14 @@ void expect_same_bits(const Film& a, const Film& b, const PixelBounds& where) {
     }
 }
 
+std::vector<Pass> schedule(uint32_t n) {
+  std::vector<Pass> passes;
+  for (Pass pass = first_pass(n); pass.begin < n; pass = next_pass(pass, n)) passes.push_back(pass);
+  return passes;
+}
+
 TEST(PassSchedule, CoversEverySampleOnceInPassesThatDependOnTheIndexAlone) {
-  const std::vector<Pass> longest = pass_schedule(100);
+  const std::vector<Pass> longest = schedule(100);
   EXPECT_EQ(longest[0].end, 1u);
   EXPECT_EQ(longest[1].end, 2u);
   EXPECT_EQ(longest[2].end, 4u);
@@ -45,7 +51,7 @@ TEST(PassSchedule, CoversEverySampleOnceInPassesThatDependOnTheIndexAlone) {
   EXPECT_EQ(longest[6].end, 48u);
   for (uint32_t n = 0; n <= 100; ++n) {
     uint32_t next = 0;
-    for (const Pass& pass : pass_schedule(n)) {
+    for (const Pass& pass : schedule(n)) {
       EXPECT_EQ(pass.begin, next);
       EXPECT_EQ(pass.begin, longest[pass.index].begin);
       EXPECT_EQ(pass.end, std::min(n, longest[pass.index].end));
@@ -74,7 +80,8 @@ TEST(Driver, CountsAndEstimatesTheError) {
     RenderObserver nobody;
     const RenderResult result = render(integrator, film, {64, 0}, nobody);
     EXPECT_EQ(result.spp, 64u);
-    EXPECT_FALSE(result.interrupted);
+    EXPECT_EQ(result.stopped_by, StoppedBy::kSamples);
+    EXPECT_FALSE(result.unequal);
     EXPECT_EQ(result.rays.camera, 40u * 30u * 64u);
     EXPECT_EQ(result.rays.indirect, 2u * result.rays.camera);
     EXPECT_EQ(result.rays.shadow, 3u * result.rays.camera);
@@ -133,7 +140,7 @@ TEST(Driver, StoppingFinishesRunningItemsAndLeavesAValidEstimate) {
   Film film(kFilm);
   NoiseIntegrator integrator(kFilm, 4);
   const RenderResult result = render(integrator, film, {1000, 2}, recorder, &stop);
-  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kInterrupt);
   EXPECT_EQ(result.spp, 4u);
   EXPECT_TRUE(std::isfinite(result.error));
   uint64_t samples = 0;
@@ -154,9 +161,79 @@ TEST(Driver, StoppedBeforeTheFirstItemGivesABlackImageOfInfiniteError) {
   Film film(kFilm);
   NoiseIntegrator integrator(kFilm);
   const RenderResult result = render(integrator, film, {4, 2}, nobody, &stop);
-  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kInterrupt);
   EXPECT_EQ(result.rays.total(), 0u);
   EXPECT_EQ(result.error, HUGE_VAL);
+}
+
+TEST(StoppingByError, IsTestedAtPowersOfTwoThatEndPasses) {
+  for (uint32_t replicates : {1u, 2u, 3u, 4u, 6u, 8u, 32u, 48u, 64u, 4096u}) {
+    std::vector<uint32_t> tested;  // samples per pixel
+    for (const Pass& pass : schedule(3000))
+      if (tests_error(pass.end, replicates)) tested.push_back(pass.end * replicates);
+    const bool power_of_two = (replicates & (replicates - 1)) == 0;
+    ASSERT_GE(tested.size(), 5u);
+    if (power_of_two) {
+      EXPECT_EQ(tested.front(), std::max(32u, replicates));
+    }
+    EXPECT_GE(tested.front(), 32u);
+    EXPECT_LT(tested.front(), std::max(64u, 2 * replicates));
+    // Every doubling up to 2048 samples per replicate, so that none falls between two passes.
+    for (size_t i = 1; i < tested.size(); ++i) EXPECT_EQ(tested[i], 2 * tested[i - 1]);
+    EXPECT_EQ(tested.back(), 2048u * replicates);
+  }
+}
+
+// What `render` makes of the noise with these settings.
+RenderResult stop_noise(const DriverSettings& settings, Film& film) {
+  NoiseIntegrator integrator(film.settings());
+  RenderObserver nobody;
+  return render(integrator, film, settings, nobody);
+}
+
+// The error of the noise after `spp` samples: see CountsAndEstimatesTheError.
+double noise_error(double spp) {
+  double sum = 0;
+  for (int m = 1; m <= 40; ++m) sum += m * m / (3.0 * spp) / (m * m + 0.01 * 20.5 * 20.5) / 40;
+  return std::sqrt(sum);
+}
+
+TEST(StoppingByError, EndsAtTheFirstTestThatFindsItSmallEnough) {
+  Film film(kFilm);
+  const RenderResult result = stop_noise({.spp = kMaxSpp, .error = noise_error(90)}, film);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kError);
+  EXPECT_EQ(result.spp, 128u);
+  EXPECT_EQ(result.error_tests, 3u);
+  EXPECT_FALSE(result.unequal);
+  expect_same_bits(film, render_noise(kFilm, 1, 16, 128), kFilm.crop);
+}
+
+TEST(StoppingByError, SamplesAreAnUpperLimit) {
+  Film film(kFilm);
+  const RenderResult result = stop_noise({.spp = 48, .error = 1e-9}, film);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kSamples);
+  EXPECT_EQ(result.spp, 48u);
+  EXPECT_EQ(result.error_tests, 1u);
+}
+
+TEST(StoppingByTime, FinishesTheFirstPassInAnyCase) {
+  Film film(kFilm);
+  const RenderResult result = stop_noise({.spp = kMaxSpp, .seconds = 1e-9}, film);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kTime);
+  EXPECT_EQ(result.spp, 2u);
+  EXPECT_FALSE(result.unequal);
+  expect_same_bits(film, render_noise(kFilm, 1, 16, 2), kFilm.crop);
+}
+
+TEST(StoppingByTime, WholePassesAreTheSameAsWithoutALimit) {
+  FilmSettings small = kFilm;
+  small.crop = {0, 0, 8, 8};
+  Film film(small);
+  const RenderResult result = stop_noise({.spp = kMaxSpp, .seconds = 0.1}, film);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kTime);
+  EXPECT_GE(result.spp, 2u);
+  if (!result.unequal) expect_same_bits(film, render_noise(small, 2, 16, result.spp), small.crop);
+  for (int x = 0; x < 8; ++x) EXPECT_GE(film.total(x, 3).count, result.spp);
 }
 
 // Notes in which floating-point mode and on how many threads its items run.
@@ -172,9 +249,10 @@ class Probe : public Integrator {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --running;
+    ++calls;
   }
   size_t fail_at = 1000;
-  mutable std::atomic<int> without_flush{0}, running{0}, most{0};
+  mutable std::atomic<int> without_flush{0}, running{0}, most{0}, calls{0};
 };
 
 TEST(Driver, ItemsFlushDenormalsAndUseTheThreadsAskedFor) {
@@ -191,6 +269,59 @@ TEST(Driver, ItemsFlushDenormalsAndUseTheThreadsAskedFor) {
     }
   }
   EXPECT_EQ(_mm_getcsr() & 0x8040, mode & 0x8040);
+}
+
+// Its second pass takes much longer than the first one makes believe.
+class SlowSecondPass : public NoiseIntegrator {
+ public:
+  using NoiseIntegrator::NoiseIntegrator;
+  void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const override {
+    if (pass.index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    NoiseIntegrator::render(pass, item, film, rays);
+  }
+};
+
+TEST(StoppingByTime, CutsAPassThatTakesTooLong) {
+  Film film(kFilm);
+  SlowSecondPass integrator(kFilm, 4);  // 80 items
+  RenderObserver nobody;
+  const RenderResult result = render(integrator, film, {.spp = kMaxSpp, .threads = 2, .seconds = 1}, nobody);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kTime);
+  EXPECT_EQ(result.spp, 2u);
+  EXPECT_TRUE(result.unequal);
+  EXPECT_EQ(film.total(0, 0).count, 4);
+  EXPECT_EQ(film.total(39, 29).count, 2);
+}
+
+// Wants the film all the time, and notes whether items ran while it looked.
+class Onlooker : public RenderObserver {
+ public:
+  explicit Onlooker(const Probe& probe) : probe_(probe) {}
+  bool wants_film() const override { return true; }
+  void on_film(const Film&) override {
+    ++looks;
+    if (probe_.running != 0) ++disturbed;
+  }
+  int looks = 0, disturbed = 0;
+
+ private:
+  const Probe& probe_;
+};
+
+TEST(Driver, TheFilmIsShownInTheMidstOfPassesWhileNothingRuns) {
+  for (int threads : {1, 4}) {
+    Probe probe;
+    Onlooker onlooker(probe);
+    Film film(kFilm);
+    const RenderResult result = render(probe, film, {.spp = 4, .threads = threads}, onlooker);
+    EXPECT_EQ(result.spp, 4u);
+    EXPECT_EQ(probe.calls, 2 * 64);
+    EXPECT_EQ(onlooker.disturbed, 0);
+    if (threads == 1) {
+      EXPECT_EQ(onlooker.looks, 63 + 1 + 63);  // after each item, and after the pass that is not the last
+    }
+    EXPECT_GE(onlooker.looks, 2);
+  }
 }
 
 TEST(Driver, ExceptionsOfAnIntegratorPassThrough) {

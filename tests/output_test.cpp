@@ -89,7 +89,7 @@ TEST(Output, MetadataTellHowTheImageWasMade) {
   settings.seed = 0xffffffffffffffffull;
   RenderResult result;
   result.rays.shadow = 1ull << 40;
-  result.interrupted = true;
+  result.stopped_by = StoppedBy::kInterrupt;
   const Metadata data = make_metadata("folder/box.pbrt", settings, "paths end at depth 5", result);
   const auto text = [&data](const std::string& name) -> std::string {
     for (const auto& [key, value] : data)
@@ -103,7 +103,30 @@ TEST(Output, MetadataTellHowTheImageWasMade) {
   EXPECT_EQ(text("rays.shadow"), "1099511627776");
   EXPECT_EQ(text("biased"), "paths end at depth 5");
   EXPECT_EQ(text("interrupted"), "true");
+  EXPECT_EQ(text("stopped_by"), "interrupt");
   EXPECT_EQ(text("size"), "1280x720");
+}
+
+TEST(Output, StoppingByErrorIsABiasAndStoppingByTimeIsNot) {
+  RenderSettings settings;
+  settings.integrator.model = "path";
+  settings.spp_unlimited = true;
+  const auto text = [&settings](const std::string& name, const std::string& bias, const RenderResult& result) {
+    for (const auto& [key, value] : make_metadata("a.pbrt", settings, bias, result))
+      if (key == "etendue:" + name) return std::get<std::string>(value);
+    return std::string("nothing of this name");
+  };
+  RenderResult result;
+  result.stopped_by = StoppedBy::kTime;
+  EXPECT_EQ(text("stopped_by", "", result), "time");
+  EXPECT_EQ(text("biased", "", result), "nothing");
+  EXPECT_EQ(text("interrupted", "", result), "false");
+  EXPECT_EQ(text("spp_planned", "", result), "unlimited");
+  result.error_tests = 2;  // it could have ended earlier
+  EXPECT_EQ(text("biased", "", result), "adaptive stopping (the error was tested 2 times)");
+  result.error_tests = 1, result.stopped_by = StoppedBy::kError;
+  EXPECT_EQ(text("stopped_by", "", result), "error");
+  EXPECT_EQ(text("biased", "depth 5", result), "depth 5; adaptive stopping (the error was tested 1 time)");
 }
 
 }  // namespace

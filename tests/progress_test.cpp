@@ -18,8 +18,10 @@ TEST(Progress, TextsArePlain) {
   EXPECT_EQ(clock_text(HUGE_VAL), "0:00");
   EXPECT_EQ(error_text(0.0312), "3.1 %");
   EXPECT_EQ(error_text(HUGE_VAL), "unknown");
-  EXPECT_EQ(progress_text({64, 16.5, 30000000, 5.0, 0.031}), "16/64 spp, error 3.1 %, 6.00 Mrays/s, 0:14 left");
-  EXPECT_EQ(progress_text({64, 64, 30000000, 5.0, 0.031}), "64/64 spp, error 3.1 %, 6.00 Mrays/s");
+  EXPECT_EQ(progress_text({64, 16.5, 30000000, 5.0, 0.031, 16.5 / 64}),
+            "16/64 spp, error 3.1 %, 6.00 Mrays/s, 0:14 left");
+  EXPECT_EQ(progress_text({64, 64, 30000000, 5.0, 0.031, 1}), "64/64 spp, error 3.1 %, 6.00 Mrays/s");
+  EXPECT_EQ(progress_text({kMaxSpp, 64, 30000000, 5.0, 0.031, 0.5}), "64 spp, error 3.1 %, 6.00 Mrays/s, 0:05 left");
 }
 
 // What a printer writes while a render of 100 spp goes from 1 to 100.
@@ -28,7 +30,7 @@ std::string written(bool redraw) {
   {
     ProgressPrinter printer(file, redraw);
     for (int spp = 1; spp <= 100; ++spp) {
-      const RenderProgress p{100, static_cast<double>(spp), 1000, 1.0, 0.5};
+      const RenderProgress p{100, static_cast<double>(spp), 1000, 1.0, 0.5, spp / 100.0};
       printer.on_progress(p);
       if (spp % 25 == 0) printer.on_pass_end(p);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "film/rgb_film.h"
+#include "render/duration.h"
 #include "render/registry.h"
 
 namespace etd {
@@ -84,6 +85,49 @@ TEST(Settings, SamplesAreRoundedUpToReplicates) {
   EXPECT_EQ(good(scene_of(8, 8), o).spp, 8u);
 }
 
+TEST(Settings, StopConditionsReplaceTheSamplesOfTheSceneButNotThoseGiven) {
+  for (const bool time : {true, false}) {
+    RenderOverrides o;
+    if (time)
+      o.seconds = 30;
+    else
+      o.error = 0.02;
+    const RenderSettings s = good(scene_of(8, 8), o);
+    EXPECT_TRUE(s.spp_unlimited);
+    EXPECT_GT(s.spp, 1u << 29);
+    EXPECT_EQ(s.seconds, time ? 30 : HUGE_VAL);
+    EXPECT_EQ(s.error, time ? 0 : 0.02);
+    o.replicates = 3;
+    EXPECT_EQ(good(scene_of(8, 8), o).spp % 3, 0u);
+    o.spp = 64;
+    EXPECT_FALSE(good(scene_of(8, 8), o).spp_unlimited);
+    EXPECT_EQ(good(scene_of(8, 8), o).spp, 66u);
+    o.spp.reset();
+    o.set = {{"sampler.pixelsamples", "9"}};
+    EXPECT_EQ(good(scene_of(8, 8), o).spp, 9u);
+  }
+}
+
+TEST(Settings, AnErrorThatIsNeverTestedIsAWarning) {
+  RenderOverrides o;
+  o.error = 0.02, o.spp = 16;
+  Diagnostics diagnostics;
+  make_settings(scene_of(8, 8), o, diagnostics);
+  EXPECT_TRUE(has(diagnostics.format_all(), "warning: the error will never be tested")) << diagnostics.format_all();
+}
+
+TEST(Duration, IsReadAsPeopleWriteIt) {
+  EXPECT_EQ(parse_duration("30"), 30.0);
+  EXPECT_EQ(parse_duration("30s"), 30.0);
+  EXPECT_EQ(parse_duration("2m"), 120.0);
+  EXPECT_EQ(parse_duration("1h30m"), 5400.0);
+  EXPECT_EQ(parse_duration("1h30m5.5s"), 5405.5);
+  EXPECT_EQ(parse_duration("0.5h"), 1800.0);
+  for (const char* text :
+       {"", "s", "0", "0s", "-3s", "3d", "1m1h", "1m2m", "1h30", "30 s", "inf", "nan", "1e3s", "3s!"})
+    EXPECT_FALSE(parse_duration(text)) << text;
+}
+
 TEST(Settings, CropWindowsAreAsInPbrt) {
   EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.25, 0.75, 0, 0.5})})).crop, (PixelBounds{3, 0, 8, 5}));
   EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.75, 0.25, 0.5, 0})})).crop, (PixelBounds{3, 0, 8, 5}));
@@ -143,10 +187,12 @@ TEST(Settings, WrongOverridesAreErrorsThatSayWhatIsValid) {
 
 TEST(Settings, WrongNumbersAndModelsAreErrors) {
   RenderOverrides o;
-  o.size = {0, 10}, o.spp = 0, o.replicates = 0, o.threads = -1, o.tile_size = 0, o.sampler = "sobl";
+  o.size = {0, 10}, o.spp = 0, o.replicates = 0, o.threads = -1, o.tile_size = 0, o.seconds = 0, o.error = -1;
+  o.sampler = "sobl";
   const std::string message = bad(scene_of(8, 8), o);
   for (const char* part : {"the image size must be", "spp must be", "replicates must be", "threads must be",
-                           "the tile size must be", "there is no sampler \"sobl\"", "did you mean \"sobol\"?"})
+                           "the tile size must be", "the time limit must be", "the error to stop at must be",
+                           "there is no sampler \"sobl\"", "did you mean \"sobol\"?"})
     EXPECT_TRUE(has(message, part)) << part << "\n" << message;
   RenderOverrides crop;
   crop.crop = PixelBounds{0, 0, 9, 8};

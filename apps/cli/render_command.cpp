@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "io/file.h"
+#include "render/duration.h"
 #include "render/interrupt.h"
 #include "render/progress.h"
 #include "render/session.h"
@@ -30,7 +31,11 @@ constexpr const char* kExamples =
     "  etendue render box.pbrt --size 640x360 --spp 256     another size, and less noise\n"
     "  etendue render box.pbrt --replicates 8               a measured error also for sobol samples\n"
     "  etendue render box.pbrt --set integrator.mode=naive  another estimator of the same image\n"
+    "  etendue render box.pbrt --time 1m30s                 as good as it gets in that time\n"
+    "  etendue render box.pbrt --error 0.02 --time 1h       until the error is 2 %, one hour at most\n"
     "\n"
+    "--time and --error put the scene's number of samples out of force; --spp still holds. The error is tested\n"
+    "at 32, 64, 128 ... samples per pixel, and a render that tests it is labelled biased in its metadata.\n"
     "Ctrl-C finishes what runs, writes the image so far and exits with 130.";
 
 int fail(const std::string& message) {
@@ -55,10 +60,19 @@ std::string output_problem(const std::vector<std::string>& outputs, const std::s
   return trial.path().empty() ? fmt::format("cannot write {}: {}", stats, trial.error()) : std::string();
 }
 
+// Why there are not all the samples that were asked for.
+std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
+  if (reason == StoppedBy::kSamples) return {};
+  return fmt::format("{} ({})", settings.spp_unlimited ? std::string() : fmt::format(" of {}", settings.spp),
+                     reason == StoppedBy::kInterrupt ? "interrupted"
+                     : reason == StoppedBy::kTime    ? "time is over"
+                                                     : "error reached");
+}
+
 void print_summary(const PreparedRender& prepared, const RenderResult& result) {
   const RenderSettings& s = prepared.settings;
   fmt::print("{}x{}, {} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
-             result.interrupted ? fmt::format(" of {} (interrupted)", s.spp) : "", result.seconds,
+             stop_text(s, result.stopped_by), result.seconds,
              short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
              error_text(result.error));
 }
@@ -128,6 +142,21 @@ void add_render(CLI::App& app, Run& run) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_override_options(*command, args);
+  command
+      ->add_option_function<std::string>(
+          "--time",
+          [args](const std::string& text) {
+            args->overrides.seconds = parse_duration(text);
+            if (!args->overrides.seconds)
+              throw CLI::ValidationError("--time", "\"" + text + "\" is no time, as in 30s, 2m or 1h30m");
+          },
+          "stop when rendering has taken this long: 30s, 2m, 1h30m or seconds")
+      ->type_name("TIME");
+  command
+      ->add_option_function<double>(
+          "--error", [args](const double& e) { args->overrides.error = e; },
+          "stop when the image's relative error is this small, as in 0.02")
+      ->type_name("E");
   command->add_option("--exposure", args->exposure, "stops by which .png and .jpg are brighter (0)")->type_name("EV");
   command
       ->add_option_function<int>(

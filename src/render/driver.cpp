@@ -1,21 +1,19 @@
 #include "render/driver.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cassert>
 #include <chrono>
+#include <optional>
 
-#include "core/flush_to_zero.h"
-#include "render/threads.h"
+#include "render/items.h"
 
 namespace etd {
 namespace {
 
-constexpr uint32_t kLongestPass = 16;  // samples per replicate: keeps items short enough to stop soon
+constexpr uint32_t kLongestPass = 16;       // samples per replicate: keeps items short enough to stop soon
+constexpr double kPredictionMargin = 1.1;   // by which a pass may take longer than the last one did
+constexpr double kWorthCuttingShort = 0.1;  // of the time limit: less is given back rather than spent on half a pass
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // Integers, so that the order in which threads add them does not matter.
 struct SharedCounts {
@@ -27,102 +25,157 @@ struct SharedCounts {
   RayCounts rays() const { return {camera, indirect, shadow}; }
 };
 
-// Calls f(i) for i in [0, n), each on whichever thread is free next.
-template <class F>
-void for_each_item(ThreadLimit& threads, size_t n, F f) {
-  threads.run([n, &f] {
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, n, 1),
-        [&f](const tbb::blocked_range<size_t>& range) {
-          const FlushToZero flush;
-          for (size_t i = range.begin(); i < range.end(); ++i) f(i);
-        },
-        tbb::simple_partitioner());
-  });
-}
+class RenderLoop {
+ public:
+  RenderLoop(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
+             const std::atomic<bool>* stop)
+      : integrator_(integrator),
+        film_(film),
+        settings_(settings),
+        replicates_(film.settings().replicates),
+        samples_(settings.spp / replicates_),
+        observer_(observer),
+        stop_(stop),
+        threads_(settings.threads) {}
 
-struct RowSums {
-  double luminance = 0, error = 0;
+  RenderResult run();
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool stop_requested() const { return stop_ && stop_->load(std::memory_order_relaxed); }
+  bool over(const Pass& pass) const { return stop_requested() || (pass.index > 0 && seconds() >= settings_.seconds); }
+  bool render_pass(const Pass& pass);
+  void show_film() {
+    if (observer_.wants_film()) observer_.on_film(film_);
+  }
+  std::optional<StoppedBy> reason_to_stop(const Pass& done);
+  bool worth_starting(const Pass& pass) const;
+  double expected_spp() const;
+  RenderProgress progress(const Pass& pass, double share_of_pass) const;
+
+  Integrator& integrator_;
+  Film& film_;
+  const DriverSettings& settings_;
+  const uint32_t replicates_, samples_;
+  RenderObserver& observer_;
+  const std::atomic<bool>* stop_;
+  ThreadLimit threads_;
+  const Clock::time_point start_ = Clock::now();
+  SharedCounts counts_;
+  double seconds_per_sample_ = 0;  // of a replicate, in the last complete pass
+  RenderResult result_;
 };
 
-double estimated_error(const Film& film, ThreadLimit& threads) {
-  const PixelBounds& crop = film.settings().crop;
-  if (crop.empty()) return 0;
-  const double pixels = static_cast<double>(crop.width()) * crop.height();
-  // Sums by row, added in the order of rows: the same for any number of threads.
-  std::vector<RowSums> rows(static_cast<size_t>(crop.height()));
-  for_each_item(threads, rows.size(), [&](size_t row) {
-    const int y = crop.y0 + static_cast<int>(row);
-    for (int x = crop.x0; x < crop.x1; ++x) rows[row].luminance += film.total(x, y).mean_radiance()[3];
-  });
-  double mean = 0;
-  for (const RowSums& row : rows) mean += row.luminance / pixels;
-  const double floor = 0.01 * sqr(mean);
-  for_each_item(threads, rows.size(), [&](size_t row) {
-    const int y = crop.y0 + static_cast<int>(row);
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const double variance = sqr(film.standard_error(x, y)[3]);
-      if (variance != 0) rows[row].error += variance / (sqr(film.total(x, y).mean_radiance()[3]) + floor);
+RenderResult RenderLoop::run() {
+  if (stop_requested()) {
+    result_.stopped_by = StoppedBy::kInterrupt;
+    return result_;
+  }
+  for (Pass pass = first_pass(samples_); pass.begin < samples_; pass = next_pass(pass, samples_)) {
+    const double begun = seconds();
+    const bool complete = render_pass(pass);
+    result_.error = estimated_error(film_, threads_);
+    if (!complete) {
+      result_.unequal = counts_.items > 0;
+      result_.stopped_by = stop_requested() ? StoppedBy::kInterrupt : StoppedBy::kTime;
+      break;
     }
-  });
-  double sum = 0;
-  for (const RowSums& row : rows) sum += row.error;
-  return std::sqrt(sum / pixels);
+    result_.spp = pass.end * replicates_;
+    seconds_per_sample_ = (seconds() - begun) / (pass.end - pass.begin);
+    const std::optional<StoppedBy> reason = reason_to_stop(pass);
+    RenderProgress now = progress(pass, 1);
+    if (reason) now.share = 1;
+    observer_.on_pass_end(now);
+    if (reason) {
+      result_.stopped_by = *reason;
+      break;
+    }
+    show_film();
+  }
+  result_.rays = counts_.rays();
+  result_.seconds = seconds();
+  return result_;
+}
+
+// False when items were left out.
+bool RenderLoop::render_pass(const Pass& pass) {
+  integrator_.prepare(pass);
+  const size_t items = integrator_.work_items(pass);
+  counts_.items = 0;
+  std::atomic<size_t> next{0};
+  while (true) {
+    run_items(threads_, next, items, [&](size_t item) {
+      RayCounts rays;
+      integrator_.render(pass, item, film_, rays);
+      counts_.add(rays);
+      observer_.on_progress(progress(pass, static_cast<double>(counts_.items) / static_cast<double>(items)));
+      return !over(pass) && !observer_.wants_film();
+    });
+    if (next >= items || over(pass)) break;
+    show_film();
+  }
+  integrator_.end(pass);
+  return counts_.items == items;
+}
+
+std::optional<StoppedBy> RenderLoop::reason_to_stop(const Pass& done) {
+  if (done.end == samples_) return StoppedBy::kSamples;
+  if (stop_requested()) return StoppedBy::kInterrupt;
+  if (settings_.error > 0 && tests_error(done.end, replicates_)) {
+    ++result_.error_tests;
+    if (result_.error <= settings_.error) return StoppedBy::kError;
+  }
+  if (!worth_starting(next_pass(done, samples_))) return StoppedBy::kTime;
+  return {};
+}
+
+// Passes that end in time leave an image of equal sample counts, the same as without a time limit. Only when much time
+// would be wasted otherwise is one begun that will be cut off.
+bool RenderLoop::worth_starting(const Pass& pass) const {
+  const double left = settings_.seconds - seconds();
+  if (left <= 0) return false;
+  const double needed = seconds_per_sample_ * (pass.end - pass.begin);
+  return kPredictionMargin * needed <= left || left >= kWorthCuttingShort * settings_.seconds;
+}
+
+// The samples per pixel at which the error will be found small enough, if its square goes on falling like 1/n.
+double RenderLoop::expected_spp() const {
+  if (!(settings_.error > 0) || !std::isfinite(result_.error)) return HUGE_VAL;
+  const double needed = std::max(result_.spp * sqr(result_.error / settings_.error), double{kFirstErrorTest});
+  return replicates_ * std::exp2(std::ceil(std::log2(std::max(needed / replicates_, 1.0))));
+}
+
+RenderProgress RenderLoop::progress(const Pass& pass, double share_of_pass) const {
+  RenderProgress now{
+      .spp = settings_.spp, .rays = counts_.rays().total(), .seconds = seconds(), .error = result_.error};
+  now.spp_done = (pass.begin + (pass.end - pass.begin) * share_of_pass) * replicates_;
+  now.share = std::max(now.spp_done / std::min<double>(settings_.spp, expected_spp()), now.seconds / settings_.seconds);
+  constexpr double kAlmostAll = 0.999;
+  now.share = std::min(now.share, kAlmostAll);
+  return now;
+}
+
+Pass cut_pass(uint32_t index, uint32_t begin, uint32_t length, uint32_t samples) {
+  return {index, begin, begin + std::min(length, samples - std::min(begin, samples))};
 }
 
 }  // namespace
 
-std::vector<Pass> pass_schedule(uint32_t samples_per_replicate) {
-  std::vector<Pass> passes;
-  for (uint32_t begin = 0; begin < samples_per_replicate;) {
-    const uint32_t length = std::clamp(begin, 1u, kLongestPass);
-    const uint32_t end = begin + std::min(length, samples_per_replicate - begin);
-    passes.push_back({static_cast<uint32_t>(passes.size()), begin, end});
-    begin = end;
-  }
-  return passes;
+Pass first_pass(uint32_t samples_per_replicate) { return cut_pass(0, 0, 1, samples_per_replicate); }
+
+Pass next_pass(const Pass& last, uint32_t samples_per_replicate) {
+  return cut_pass(last.index + 1, last.end, std::clamp(last.end, 1u, kLongestPass), samples_per_replicate);
 }
 
-double estimated_error(const Film& film, int threads) {
-  ThreadLimit limit(threads);
-  return estimated_error(film, limit);
+bool tests_error(uint32_t samples_per_replicate, uint32_t replicates) {
+  const bool power_of_two = (samples_per_replicate & (samples_per_replicate - 1)) == 0;
+  return power_of_two && uint64_t{samples_per_replicate} * replicates >= kFirstErrorTest;
 }
 
 RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
                     const std::atomic<bool>* stop) {
-  const uint32_t replicates = film.settings().replicates;
-  assert(settings.spp % replicates == 0);
-  ThreadLimit threads(settings.threads);
-  const Clock::time_point start = Clock::now();
-  const auto stopped = [stop] { return stop && stop->load(std::memory_order_relaxed); };
-
-  RenderResult result;
-  SharedCounts counts;
-  for (const Pass& pass : pass_schedule(settings.spp / replicates)) {
-    if ((result.interrupted = stopped())) break;
-    integrator.prepare(pass);
-    const size_t items = integrator.work_items(pass);
-    counts.items = 0;
-    const auto progress = [&](double share_of_pass) {
-      const double done = pass.begin + (pass.end - pass.begin) * share_of_pass;
-      return RenderProgress{settings.spp, done * replicates, counts.rays().total(), seconds_since(start), result.error};
-    };
-    for_each_item(threads, items, [&](size_t item) {
-      if (stopped()) return;
-      RayCounts rays;
-      integrator.render(pass, item, film, rays);
-      counts.add(rays);
-      observer.on_progress(progress(static_cast<double>(counts.items) / static_cast<double>(items)));
-    });
-    integrator.end(pass);
-    result.error = estimated_error(film, threads);
-    if ((result.interrupted = counts.items < items)) break;
-    result.spp = pass.end * replicates;
-    observer.on_pass_end(progress(1));
-  }
-  result.rays = counts.rays();
-  result.seconds = seconds_since(start);
-  return result;
+  assert(settings.spp % film.settings().replicates == 0);
+  return RenderLoop(integrator, film, settings, observer, stop).run();
 }
 
 }  // namespace etd

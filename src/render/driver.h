@@ -4,52 +4,72 @@
 #pragma once
 
 #include <atomic>
-#include <vector>
 
 #include "film/film.h"
 #include "integrators/integrator.h"
+#include "render/estimated_error.h"
 
 namespace etd {
 
+// More samples than anybody waits for; a render without a limit of its own runs until something else stops it.
+inline constexpr uint32_t kMaxSpp = 1u << 30;
+
+// Samples per pixel before which the error is not tested: fewer do not know their error well enough.
+inline constexpr uint32_t kFirstErrorTest = 32;
+
 struct DriverSettings {
-  uint32_t spp = 16;  // a multiple of the film's replicates
-  int threads = 0;    // 0: all cores
+  uint32_t spp = 16;          // at most; a multiple of the film's replicates
+  int threads = 0;            // 0: all cores
+  double seconds = HUGE_VAL;  // at most; the first pass is finished in any case
+  double error = 0;           // stop when estimated_error() is no larger, where tests_error() has it tested; 0: never
 };
 
 struct RenderProgress {
-  uint32_t spp = 0;         // to be taken
+  uint32_t spp = 0;         // to be taken at most
   double spp_done = 0;      // taken, with the share of the running pass
   uint64_t rays = 0;        // traced so far
   double seconds = 0;       // since the render began
   double error = HUGE_VAL;  // estimated_error() after the last complete pass
+  double share = 0;         // of the whole render that is done, as far as can be told; 1 only at its end
 };
 
-// Told what happens. on_progress() is called by any thread, several at a time; the other one by the driver's.
+// Told what happens. on_progress() and wants_film() are called by any thread, several at a time; the others by the
+// driver's, while no item runs.
 class RenderObserver {
  public:
   virtual ~RenderObserver() = default;
   virtual void on_progress(const RenderProgress&) {}
   virtual void on_pass_end(const RenderProgress&) {}
+  // Asked after each item and each pass: true pauses the render, in the midst of a pass too, for a look at the film.
+  virtual bool wants_film() const { return false; }
+  virtual void on_film(const Film&) {}
 };
+
+// What ended a render: the last sample, the caller's `stop`, the clock, or the error that was asked for.
+enum class StoppedBy { kSamples, kInterrupt, kTime, kError };
 
 struct RenderResult {
   RayCounts rays;
-  uint32_t spp = 0;          // samples that every pixel has
-  bool interrupted = false;  // stopped before the last sample
+  uint32_t spp = 0;  // samples that every pixel has
+  StoppedBy stopped_by = StoppedBy::kSamples;
+  bool unequal = false;      // some pixels have more samples than others: a pass was cut off
+  uint32_t error_tests = 0;  // how often the error could have stopped it
   double seconds = 0;
   double error = HUGE_VAL;  // estimated_error() of the film
 };
 
-// The passes for n samples per replicate: [0,1), [1,2), [2,4), [4,8), [8,16), then steps of 16.
-std::vector<Pass> pass_schedule(uint32_t samples_per_replicate);
+// The passes for n samples per replicate: [0,1), [1,2), [2,4), [4,8), [8,16), then steps of 16, the last one cut to n.
+Pass first_pass(uint32_t samples_per_replicate);
+// The one after `last`; it begins at n when there is none.
+Pass next_pass(const Pass& last, uint32_t samples_per_replicate);
 
-// The relative standard error of the image as one number, from luminances Y of mean Ybar:
-//   sqrt(mean over pixels of se^2 / (Y^2 + 0.01 Ybar^2)).
-// +inf where some pixel has fewer than two samples. `threads` as in DriverSettings.
-double estimated_error(const Film& film, int threads = 0);
+// Whether stopping by error is considered after this many samples per replicate: at the powers of two, which end
+// passes, from 32 samples per pixel on. These are 32 2^k samples per pixel when the replicates are a power of two.
+bool tests_error(uint32_t samples_per_replicate, uint32_t replicates);
 
-// Renders into an empty film. When `stop` becomes true, running items finish, the others are left out, and the film
-// holds a valid estimate of unequal sample counts. Exceptions of the integrator pass through.
+// Renders into an empty film. When `stop` becomes true, or a pass that did not look too long turns out to be when the
+// time is over, running items finish, the others are left out, and the film holds a valid estimate of unequal sample
+// counts. Exceptions of the integrator pass through.
 RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
                     const std::atomic<bool>* stop = nullptr);
 

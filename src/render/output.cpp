@@ -64,6 +64,29 @@ MetadataValue parameter_value(const ParamReader& reader, const ParamDecl& p) {
   }
 }
 
+const char* stopped_by_name(StoppedBy reason) {
+  switch (reason) {
+    case StoppedBy::kSamples:
+      return "samples";
+    case StoppedBy::kInterrupt:
+      return "interrupt";
+    case StoppedBy::kTime:
+      return "time";
+    case StoppedBy::kError:
+      return "error";
+  }
+  return "";
+}
+
+// Whether or not the error stopped it: an image that went on because its error looked large was selected as well.
+std::string bias_text(const std::string& of_integrator, const RenderResult& result) {
+  std::string text = of_integrator;
+  if (result.error_tests > 0)
+    text += fmt::format("{}adaptive stopping (the error was tested {} time{})", text.empty() ? "" : "; ",
+                        result.error_tests, result.error_tests == 1 ? "" : "s");
+  return text.empty() ? std::string("nothing") : text;
+}
+
 }  // namespace
 
 LayeredImage make_layers(const Film& film) {
@@ -102,7 +125,10 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("seed", std::to_string(settings.seed));
   add("replicates", static_cast<int>(settings.replicates));
   add("spp", static_cast<int>(result.spp));
-  add("spp_planned", static_cast<int>(settings.spp));
+  add("spp_planned", settings.spp_unlimited ? MetadataValue(std::string("unlimited")) : static_cast<int>(settings.spp));
+  add("spp_unequal", std::string(result.unequal ? "true" : "false"));
+  if (settings.seconds < HUGE_VAL) add("seconds_limit", settings.seconds);
+  if (settings.error > 0) add("error_goal", settings.error);
   add("size", fmt::format("{}x{}", settings.width, settings.height));
   add("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
   add("rays.camera", std::to_string(result.rays.camera));
@@ -113,8 +139,9 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("stderr",
       std::string(settings.replicates >= kReplicatesForSpread ? "spread of the replicates"
                                                               : "second moments (conservative for sobol samples)"));
-  add("biased", bias.empty() ? std::string("nothing") : bias);
-  add("interrupted", std::string(result.interrupted ? "true" : "false"));
+  add("biased", bias_text(bias, result));
+  add("stopped_by", std::string(stopped_by_name(result.stopped_by)));
+  add("interrupted", std::string(result.stopped_by == StoppedBy::kInterrupt ? "true" : "false"));
   return data;
 }
 

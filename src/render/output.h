@@ -21,9 +21,8 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 LayeredImage make_layers(const Film& film);
 
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
-// scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, what is
-// biased
-// ("nothing" when nothing is) and whether it was interrupted.
+// scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
+// is biased ("nothing" when nothing is) and what stopped it.
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result);
 

@@ -11,8 +11,6 @@ namespace {
 constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kRedrawInterval{200};
 
-double share(const RenderProgress& p) { return p.spp > 0 ? std::clamp(p.spp_done / p.spp, 0.0, 1.0) : 1.0; }
-
 }  // namespace
 
 std::string short_count(double count) {
@@ -36,16 +34,18 @@ std::string error_text(double error) {
 }
 
 std::string progress_text(const RenderProgress& p) {
-  std::string text = fmt::format("{:.0f}/{} spp, error {}", std::floor(p.spp_done), p.spp, error_text(p.error));
+  std::string text = fmt::format("{:.0f}", std::floor(p.spp_done));
+  if (p.spp < kMaxSpp / 2) text += fmt::format("/{}", p.spp);  // more is no limit
+  text += fmt::format(" spp, error {}", error_text(p.error));
   if (p.seconds > 0) text += fmt::format(", {}rays/s", short_count(static_cast<double>(p.rays) / p.seconds));
-  if (share(p) > 0 && share(p) < 1) text += fmt::format(", {} left", clock_text(p.seconds * (1 / share(p) - 1)));
+  if (p.share > 0 && p.share < 1) text += fmt::format(", {} left", clock_text(p.seconds * (1 / p.share - 1)));
   return text;
 }
 
 void ProgressPrinter::on_progress(const RenderProgress& progress) {
   // Whoever finds another thread here has nothing newer to say.
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock || share(progress) == 1) return;  // the end of a pass knows the error better
+  if (!lock) return;
   if (!redraw_)
     print_line(progress);
   else if (std::chrono::steady_clock::now() - last_ >= kRedrawInterval)
@@ -58,7 +58,7 @@ void ProgressPrinter::on_pass_end(const RenderProgress& progress) {
 }
 
 void ProgressPrinter::print_line(const RenderProgress& progress) {
-  const int tenths = static_cast<int>(10 * share(progress));
+  const int tenths = static_cast<int>(10 * progress.share);
   if (tenths <= tenths_) return;
   tenths_ = tenths;
   fmt::print(out_, "{:3} %  {}\n", 10 * tenths, progress_text(progress));
@@ -67,7 +67,7 @@ void ProgressPrinter::print_line(const RenderProgress& progress) {
 
 void ProgressPrinter::draw(const RenderProgress& progress) {
   last_ = std::chrono::steady_clock::now();
-  const auto filled = static_cast<size_t>(std::lround(kBarWidth * share(progress)));
+  const auto filled = static_cast<size_t>(std::lround(kBarWidth * progress.share));
   const std::string line =
       fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), progress_text(progress));
   fmt::print(out_, "\r{:<{}}", line, drawn_);

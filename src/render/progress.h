@@ -16,7 +16,7 @@ std::string short_count(double count);
 std::string clock_text(double seconds);
 // "1.2 %", or "unknown" when it is not finite.
 std::string error_text(double error);
-// "24/64 spp, error 3.1 %, 5.2 Mrays/s, 0:12 left".
+// "24/64 spp, error 3.1 %, 5.2 Mrays/s, 0:12 left"; "24 spp, ..." when samples are unlimited.
 std::string progress_text(const RenderProgress& progress);
 
 class ProgressPrinter : public RenderObserver {

@@ -58,8 +58,9 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
   const RenderSettings& settings = prepared.settings;
   FinishedRender finished{Film(film_settings(settings)), {}};
-  finished.result =
-      render(*prepared.integrator, finished.film, {.spp = settings.spp, .threads = settings.threads}, observer, stop);
+  const DriverSettings driver{
+      .spp = settings.spp, .threads = settings.threads, .seconds = settings.seconds, .error = settings.error};
+  finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);
   return finished;
 }
 

@@ -40,7 +40,7 @@ struct FinishedRender {
   RenderResult result;
 };
 
-// Renders until all samples are taken or `stop` becomes true.
+// Renders until all samples are taken, another limit of the settings is reached or `stop` becomes true.
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
 
 // The image with its layers and metadata, ready for write_output().

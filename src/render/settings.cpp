@@ -5,13 +5,12 @@
 #include <algorithm>
 
 #include "film/rgb_film.h"
+#include "render/driver.h"
 #include "render/overrides.h"
 #include "render/registry.h"
 
 namespace etd {
 namespace {
-
-constexpr uint32_t kMaxSpp = 1u << 30;
 
 // Descriptions that were not read from a file may leave these to us.
 void fill_empty(ModelUse& use, const char* model) {
@@ -29,6 +28,8 @@ RenderOverrides checked(RenderOverrides o, Diagnostics& diagnostics) {
   check(o.size, width >= 1 && height >= 1 && width <= kMaxImageSide && height <= kMaxImageSide,
         "the image size must be from 1x1 to 65536x65536 pixels");
   check(o.spp, o.spp >= 1u && o.spp <= kMaxSpp, "spp must be from 1 to 2^30");
+  check(o.seconds, o.seconds > 0.0, "the time limit must be positive");
+  check(o.error, o.error > 0.0 && o.error < HUGE_VAL, "the error to stop at must be positive");
   check(o.replicates, o.replicates >= 1u && o.replicates <= 4096u, "replicates must be from 1 to 4096");
   check(o.threads, o.threads >= 0 && o.threads <= 1024, "threads must be from 0 (all cores) to 1024");
   check(o.tile_size, o.tile_size >= 1 && o.tile_size <= 4096, "the tile size must be from 1 to 4096 pixels");
@@ -55,12 +56,25 @@ void read_film(const ParamReader& reader, const RenderOverrides& overrides, Rend
 void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, RenderSettings& settings) {
   settings.sampler = sampler_kind(reader.decl().name);
   settings.seed = overrides.seed.value_or(static_cast<uint64_t>(reader.integer("seed")));
-  const uint32_t wanted = overrides.spp.value_or(static_cast<uint32_t>(reader.integer("pixelsamples")));
+  settings.seconds = overrides.seconds.value_or(settings.seconds);
+  settings.error = overrides.error.value_or(settings.error);
   const uint32_t r = settings.replicates;
+  const bool samples_set = std::any_of(overrides.set.begin(), overrides.set.end(),
+                                       [](const auto& entry) { return entry.first == "sampler.pixelsamples"; });
+  settings.spp_unlimited = (overrides.seconds || overrides.error) && !overrides.spp && !samples_set;
+  if (settings.spp_unlimited) {
+    settings.spp = kMaxSpp / r * r;
+    return;
+  }
+  const uint32_t wanted = overrides.spp.value_or(static_cast<uint32_t>(reader.integer("pixelsamples")));
   settings.spp = (wanted + r - 1) / r * r;
   if (settings.spp != wanted)
     reader.diagnostics().note(
         {}, fmt::format("{} samples per pixel rounded up to {}, a multiple of {} replicates", wanted, settings.spp, r));
+  if (settings.error > 0 && settings.spp < kFirstErrorTest)
+    reader.diagnostics().warning(
+        {}, fmt::format("the error will never be tested: that begins at {} samples per pixel, and only {} are taken",
+                        kFirstErrorTest, settings.spp));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Everything a render needs to know beside the scene itself: what the scene file asks for, overridden by the caller.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,7 +17,10 @@ namespace etd {
 struct RenderSettings {
   int width = 1280, height = 720;
   PixelBounds crop{0, 0, 1280, 720};
-  uint32_t spp = 16;  // a multiple of replicates
+  uint32_t spp = 16;           // at most; a multiple of replicates
+  bool spp_unlimited = false;  // nobody asked for a number of samples: spp is the largest possible one
+  double seconds = HUGE_VAL;   // of rendering, at most
+  double error = 0;            // that is small enough to stop (estimated_error()); 0: never
   uint32_t replicates = 2;
   uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
@@ -32,6 +36,8 @@ struct RenderOverrides {
   std::optional<std::pair<int, int>> size;
   std::optional<PixelBounds> crop;
   std::optional<uint32_t> spp, replicates;
+  // Stop conditions. With one of them, the samples that the scene asks for do not count, only those given here.
+  std::optional<double> seconds, error;
   std::optional<uint64_t> seed;
   std::optional<int> threads, tile_size;
   std::optional<bool> features;

@@ -18,8 +18,11 @@ inline int thread_count(int requested) {
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads)
-      : control_(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(thread_count(threads))),
-        arena_(thread_count(threads)) {}
+      : count_(thread_count(threads)),
+        control_(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(count_)),
+        arena_(count_) {}
+
+  int count() const { return count_; }
 
   template <class F>
   auto run(F&& f) {
@@ -27,6 +30,7 @@ class ThreadLimit {
   }
 
  private:
+  int count_;
   tbb::global_control control_;
   tbb::task_arena arena_;
 };

@@ -1,0 +1,43 @@
+// Runs independent items on all threads: the one parallel loop of this room.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "core/flush_to_zero.h"
+#include "render/threads.h"
+
+namespace etd {
+
+// Calls f(i) for i = next, next + 1, ... below n, begun in this order, each on whichever thread is free. After a call
+// that returns false no other one is begun; `next` is then the first that was not (n or more: none), so that a second
+// call goes on from there. Items run with flush-to-zero set. An exception stops the others in the same way and passes
+// through.
+template <class F>
+void run_items(ThreadLimit& threads, std::atomic<size_t>& next, size_t n, F f) {
+  std::atomic<bool> halted{false};
+  const auto work = [&](int) {
+    const FlushToZero flush;
+    try {
+      while (!halted) {
+        const size_t i = next++;
+        if (i >= n) return;
+        if (!f(i)) halted = true;
+      }
+    } catch (...) {
+      halted = true;
+      throw;
+    }
+  };
+  threads.run([&] { tbb::parallel_for(0, threads.count(), work, tbb::simple_partitioner()); });
+}
+
+// All items from 0 to n - 1.
+template <class F>
+void for_each_item(ThreadLimit& threads, size_t n, F f) {
+  std::atomic<size_t> next{0};
+  run_items(threads, next, n, [&f](size_t i) { return f(i), true; });
+}
+
+}  // namespace etd
