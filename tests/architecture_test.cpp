@@ -40,10 +40,11 @@ const std::set<std::pair<std::string, std::string>> kSideways = {
 
 // Where the headers of an outside library may be included: everything that begins like the first, only under the
 // second.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kLibraries = {{{"embree", "src/accel/embree/"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kLibraries = {{{"embree", "src/accel/embree/"},
                                                                                       {"OpenImageIO/", "src/io/"},
                                                                                       {"OpenEXR/", "src/io/"},
                                                                                       {"Imath/", "src/io/"},
+                                                                                      {"zlib.h", "src/io/"},
                                                                                       {"CLI/", "apps/cli/"},
                                                                                       {"gtest/", "tests/"},
                                                                                       {"gmock/", "tests/"},

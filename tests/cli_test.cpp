@@ -87,7 +87,7 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
                                                         {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
                                                         {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
                                                         {"render s.pbrt -o a.gif", "cannot write a.gif"},
-                                                        {"render s.obj", "names no scene language"},
+                                                        {"render s.blend", "names no scene language"},
                                                         {"render absent.pbrt", "absent.pbrt"},
                                                         {"describe material difuse", "did you mean \"diffuse\"?"}}) {
     const Finished done = run(arguments);

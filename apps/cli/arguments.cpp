@@ -4,7 +4,9 @@
 
 #include <charconv>
 
+#include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
+#include "io/gzip.h"
 
 namespace etd::cli {
 namespace {
@@ -37,7 +39,10 @@ void add_value(CLI::App& command, const std::string& name, std::optional<T>& to,
 }  // namespace
 
 void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args) {
-  command.add_option("scene", args->scene, "a scene file; its ending names the language: .pbrt (pbrt-v4)")
+  command
+      .add_option("scene", args->scene,
+                  "a scene file; its ending names the language: .pbrt (pbrt-v4), or "
+                  "a mesh to look at: .obj, .off, .ply")
       ->required()
       ->type_name("SCENE");
   command.add_flag("--allow-unsupported", args->allow_unsupported,
@@ -102,11 +107,11 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
 
 SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {
   const std::filesystem::path file = path;
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = uncompressed_ending(file);
   if (ending == ".pbrt") return read_pbrt(file, diagnostics);
+  if (is_mesh_ending(ending)) return read_mesh_scene(file, diagnostics);
   diagnostics.error({}, fmt::format("{}: the ending \"{}\" names no scene language", path, ending),
-                    "valid: .pbrt (pbrt-v4)");
+                    "valid: .pbrt (pbrt-v4), and .obj, .off, .ply for a single mesh");
   return {};
 }
 

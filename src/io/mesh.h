@@ -26,8 +26,13 @@ struct MeshResult {
   std::vector<std::string> notes;     // things left out that may surprise ("vertex colours are not used")
 };
 
-// PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements; polygons become fans.
+// All readers take gzip-compressed files too, and turn polygons into fans.
+
+// PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements.
 // Normals nx ny nz; texture coordinates u v, s t, texture_u texture_v or texture_s texture_t.
 MeshResult read_ply(const std::filesystem::path& path);
+
+// OFF as text: headers OFF, COFF, NOFF, STOFF, 4OFF and their combinations, or none. Colours are read over with a note.
+MeshResult read_off(const std::filesystem::path& path);
 
 }  // namespace etd

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/file.h"
+#include "io/gzip.h"
 #include "io/mesh.h"
 #include "io/ply_body.h"
 #include "io/ply_header.h"
@@ -230,7 +230,7 @@ void PlyMeshReader::take_face(const PlyBody& body, const PlyValues& values, uint
 }  // namespace
 
 MeshResult read_ply(const std::filesystem::path& path) {
-  const FileBytes file = read_file(path);
+  const FileBytes file = read_file_uncompressed(path);
   if (file.error.empty()) return PlyMeshReader(file.bytes).read();
   MeshResult result;
   result.problems.push_back(file.error);

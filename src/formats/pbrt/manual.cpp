@@ -132,9 +132,7 @@ std::string pbrt_coverage_markdown() {
       unsupported_models_table() + unsupported_params_table();
   out +=
       "\nBesides: motion blur (a use of two different transforms; the start transform is rendered), media "
-      "(`MakeNamedMedium`,\n`MediumInterface` with a name; empty space), gzip-compressed files (nothing of them) and "
-      "every "
-      "`ColorSpace` but `srgb`\n(`srgb`).\n";
+      "(`MakeNamedMedium`,\n`MediumInterface` with a name; empty space) and every `ColorSpace` but `srgb`\n(`srgb`).\n";
   return out;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fstream>
 
+#include "io/gzip.h"
+
 namespace etd::pbrt {
 
 namespace {
@@ -28,7 +30,6 @@ Bytes read_bytes(const fs::path& path) {
   return {std::move(text), {}};
 }
 
-bool is_gzip(std::string_view text) { return text.substr(0, 2) == "\x1f\x8b"; }
 bool is_binary(std::string_view text) { return text.substr(0, 4096).find('\0') != std::string_view::npos; }
 
 }  // namespace
@@ -68,8 +69,12 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
       return -1;
     }
     if (is_gzip(bytes.text)) {
-      diagnostics_.unsupported(loc, fmt::format("the gzip-compressed file \"{}\"", path.string()), "nothing of it");
-      return -1;
+      FileBytes inside = gunzip(bytes.text);
+      if (!inside.error.empty()) {
+        diagnostics_.error(loc, fmt::format("the file \"{}\": {}", path.string(), inside.error));
+        return -1;
+      }
+      bytes.text = std::move(inside.bytes);
     }
     if (is_binary(bytes.text)) {
       diagnostics_.error(loc, fmt::format("the file \"{}\" is not text", path.string()),

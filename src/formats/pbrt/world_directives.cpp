@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "formats/mesh/obj_scene.h"
 #include "formats/pbrt/coverage.h"
 #include "formats/pbrt/parser.h"
 
@@ -68,8 +69,12 @@ void shape(Parser& p, const Token& d) {
   if (!supported || !to_world) return;
   std::vector<ShapeDesc>& shapes =
       p.object >= 0 ? p.scene.objects[static_cast<size_t>(p.object)].shapes : p.scene.shapes;
-  shapes.push_back(
-      {std::move(*supported), *to_world, p.state.reverse_orientation, p.state.material, p.state.area_light});
+  ShapeDesc shape{std::move(*supported), *to_world, p.state.reverse_orientation, p.state.material, p.state.area_light};
+  if (shape.use.model == "objmesh") {
+    for (ShapeDesc& part : expand_objmesh(std::move(shape), p.scene, p.diagnostics)) shapes.push_back(std::move(part));
+  } else {
+    shapes.push_back(std::move(shape));
+  }
 }
 
 void light_source(Parser& p, const Token& d) {

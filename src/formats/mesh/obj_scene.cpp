@@ -1,0 +1,161 @@
+#include "formats/mesh/obj_scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "formats/mesh/params.h"
+#include "scene/registry.h"
+#include "shapes/mesh_shapes.h"
+
+namespace etd {
+
+namespace {
+
+bool is_black(Vec3 c) { return c == Vec3{}; }
+
+// Models of shading that refract: 4 and 9 are glass, 6 and 7 refraction with and without Fresnel.
+bool is_glass(const ObjMaterial& m) { return m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9; }
+bool is_mirror(const ObjMaterial& m) { return m.illum == 3 || m.illum == 5 || m.illum == 8; }
+
+// Microfacet alpha of Phong's exponent: the lobes agree around their peak for alpha^2 = 2 / (n + 2) (Walter et al.
+// 2007).
+double alpha_of(const ObjMaterial& m) {
+  if (m.pr) return *m.pr * *m.pr;
+  return is_mirror(m) ? 0.0 : std::sqrt(2.0 / (m.ns + 2.0));
+}
+
+class ObjMaterials {
+ public:
+  ObjMaterials(const ObjResult& obj, std::filesystem::path file, SourceLoc loc, SceneDescription& scene)
+      : obj_(obj), file_(std::move(file)), loc_(loc), scene_(scene) {}
+
+  // Index of the material of that name in the scene, -1 for those that the file does not have.
+  int index(const std::string& name) {
+    const auto known = index_of_.find(name);
+    if (known != index_of_.end()) return known->second;
+    const ObjMaterial* m = obj_.find(name);
+    int index = -1;
+    if (m) {
+      index = static_cast<int>(scene_.materials.size());
+      scene_.materials.push_back({"", convert(*m)});
+    } else if (!name.empty()) {
+      missing.push_back(name);
+    }
+    return index_of_[name] = index;
+  }
+
+  // Names of materials that lose something.
+  std::vector<std::string> missing, glossy, dissolved, tinted;
+
+ private:
+  ModelUse convert(const ObjMaterial& m) {
+    if (m.d < 1 && !is_glass(m)) dissolved.push_back(m.name);
+    if (is_glass(m)) return use("dielectric", {number_param("eta", {m.ni > 1 ? m.ni : 1.5})});
+    const bool has_diffuse = !is_black(m.kd) || !m.map_kd.file.empty();
+    if (m.pm >= 0.5 || (!has_diffuse && !is_black(m.ks))) {
+      const double alpha = alpha_of(m);
+      return use("conductor",
+                 {m.pm >= 0.5 ? diffuse(m) : rgb_param("reflectance", m.ks), number_param("roughness", {alpha}),
+                  integer_param("remaproughness", {0}, ParamKind::kBool)});
+    }
+    if (!is_black(m.ks)) glossy.push_back(m.name);
+    return use("diffuse", {diffuse(m)});
+  }
+
+  ModelUse use(std::string model, std::vector<Param> params) const {
+    for (Param& p : params) p.loc = p.value_loc = loc_;
+    return {std::move(model), std::move(params), loc_};
+  }
+
+  // Kd, times its image where there is one. Black in front of an image is what exporters write who mean the image
+  // alone.
+  Param diffuse(const ObjMaterial& m) {
+    if (m.map_kd.file.empty()) return rgb_param("reflectance", m.kd);
+    if (m.kd.x != m.kd.y || m.kd.y != m.kd.z) tinted.push_back(m.name);
+    const float mean = (m.kd.x + m.kd.y + m.kd.z) / 3;
+    const std::string name = fmt::format("{}: {}: {}", file_.string(), m.name, m.map_kd.file.string());
+    scene_.textures.push_back(
+        {name, false,
+         use("imagemap",
+             {string_param("filename", (file_.parent_path() / m.map_kd.file).string()),
+              number_param("scale", {mean > 0 ? mean : 1.0}), number_param("uscale", {m.map_kd.scale.x}),
+              number_param("vscale", {m.map_kd.scale.y}), number_param("udelta", {m.map_kd.offset.x}),
+              number_param("vdelta", {m.map_kd.offset.y}), string_param("wrap", m.map_kd.clamp ? "black" : "repeat")}),
+         Transform()});
+    return string_param("reflectance", name, ParamKind::kTexture);
+  }
+
+  const ObjResult& obj_;
+  std::filesystem::path file_;
+  SourceLoc loc_;
+  SceneDescription& scene_;
+  std::map<std::string, int> index_of_;
+};
+
+void note_losses(const ObjMaterials& materials, SourceLoc loc, const std::string& file, Diagnostics& diagnostics) {
+  const auto note = [&](const std::vector<std::string>& names, std::string_view what) {
+    if (!names.empty()) diagnostics.note(loc, fmt::format("{}: {}: {}", file, what, fmt::join(names, ", ")));
+  };
+  note(materials.missing, "materials that no MTL file has, the current one is used");
+  note(materials.glossy, "materials whose gloss (Ks) over a diffuse colour is left out");
+  note(materials.tinted, "materials whose image is multiplied by the mean of their coloured Kd");
+  note(materials.dissolved, "materials whose opacity (d) is left out");
+}
+
+}  // namespace
+
+ModelUse trianglemesh_use(const MeshData& mesh, SourceLoc loc) {
+  std::vector<double> positions, normals, uvs;
+  std::vector<int32_t> indices;
+  positions.reserve(3 * mesh.positions.size());
+  for (const Point3d& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  for (const Vec3& n : mesh.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
+  for (const Vec2& uv : mesh.uvs) uvs.insert(uvs.end(), {uv.x, uv.y});
+  indices.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (const uint32_t i : t) indices.push_back(static_cast<int32_t>(i));
+  ModelUse use{"trianglemesh", {}, loc};
+  use.params.push_back(number_param("P", std::move(positions), ParamKind::kPoint3));
+  use.params.push_back(integer_param("indices", std::move(indices)));
+  if (!normals.empty()) use.params.push_back(number_param("N", std::move(normals), ParamKind::kNormal));
+  if (!uvs.empty()) use.params.push_back(number_param("uv", std::move(uvs), ParamKind::kPoint2));
+  for (Param& p : use.params) p.loc = p.value_loc = loc;
+  return use;
+}
+
+std::vector<ShapeDesc> add_obj(ObjResult obj, const std::filesystem::path& file, const ShapeDesc& like,
+                               SceneDescription& scene, Diagnostics& diagnostics) {
+  const SourceLoc loc = like.use.loc;
+  ObjMaterials materials(obj, file, loc, scene);
+  std::vector<ShapeDesc> shapes;
+  for (ObjPart& part : obj.parts) {
+    ShapeDesc shape = like;
+    shape.use = trianglemesh_use(std::exchange(part.mesh, {}), loc);
+    if (const int index = materials.index(part.material); index >= 0) shape.material = index;
+    if (const ObjMaterial* m = obj.find(part.material); m && !is_black(m->ke)) {
+      shape.area_light = static_cast<int>(scene.area_lights.size());
+      ModelUse light{"diffuse", {rgb_param("L", m->ke)}, loc};
+      light.params[0].loc = light.params[0].value_loc = loc;
+      scene.area_lights.push_back(std::move(light));
+    }
+    shapes.push_back(std::move(shape));
+  }
+  note_losses(materials, loc, file.string(), diagnostics);
+  return shapes;
+}
+
+std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, Diagnostics& diagnostics) {
+  const ParamReader p(objmesh_decl(), shape.use, diagnostics);
+  const Param* file = p.given("filename");
+  if (!file || !p.boolean("materials")) return {std::move(shape)};
+  ObjResult obj = read_obj(scene.folder / file->strings[0]);
+  report_mesh_problems(obj.problems, obj.notes, file->value_loc, file->strings[0], diagnostics);
+  if (!obj.problems.empty()) return {};
+  const std::string name = file->strings[0];
+  return add_obj(std::move(obj), name, shape, scene, diagnostics);
+}
+
+}  // namespace etd

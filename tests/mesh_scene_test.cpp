@@ -1,0 +1,154 @@
+// Meshes in scenes: compressed files, the shapes offmesh and objmesh, and a mesh file as a scene of its own.
+#include <gtest/gtest.h>
+
+#include "formats/mesh/reader.h"
+#include "formats/pbrt/reader.h"
+#include "io/gzip.h"
+#include "io/mesh.h"
+#include "render/session.h"
+#include "scene/scene.h"
+#include "temp_folder.h"
+
+namespace etd {
+namespace {
+
+// A gzip file that stores its content uncompressed (RFC 1951 and 1952).
+std::string gzip(std::string_view text) {
+  std::string out("\x1f\x8b\x08\0\0\0\0\0\0\3", 10);
+  const auto add = [&out](uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 255u);
+  };
+  uint32_t crc = ~0u;
+  for (const char c : text) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
+  }
+  add(1, 1);
+  add(static_cast<uint32_t>(text.size()), 2);
+  add(~static_cast<uint32_t>(text.size()), 2);
+  out += text;
+  add(~crc, 4);
+  add(static_cast<uint32_t>(text.size()), 4);
+  return out;
+}
+
+constexpr const char* kOff = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n";
+constexpr const char* kPly =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+TEST(Gzip, GivesBackWhatWasCompressed) {
+  constexpr unsigned char kThousand[] = {31, 139, 8,  0,   0, 0, 0,   0,   2,  3,  171, 168, 24, 5, 163,
+                                         96, 20,  12, 119, 0, 0, 230, 201, 65, 59, 232, 3,   0,  0};  // letters x
+  EXPECT_EQ(gunzip({reinterpret_cast<const char*>(kThousand), sizeof(kThousand)}).bytes, std::string(1000, 'x'));
+  EXPECT_EQ(gunzip(gzip("one ") + gzip("two") + std::string(100, '\0')).bytes, "one two");
+  const std::string packed = gzip(kPly);
+  EXPECT_EQ(gunzip(packed.substr(0, packed.size() - 9)).error, "the compressed data end early");
+  std::string damaged = packed;
+  damaged[packed.size() / 2] = static_cast<char>(damaged[packed.size() / 2] ^ 0x55);
+  EXPECT_FALSE(gunzip(damaged).error.empty());
+  EXPECT_EQ(uncompressed_ending("a/b.PLY.GZ"), ".ply");
+  EXPECT_EQ(uncompressed_ending("a.gz/b.Off"), ".off");
+  EXPECT_EQ(uncompressed_ending("b"), "");
+}
+
+TEST(Gzip, MeshesMayBeCompressed) {
+  const TempFolder folder;
+  EXPECT_TRUE(read_ply(folder.write("a.ply.gz", gzip(kPly))).mesh);
+  EXPECT_TRUE(read_ply(folder.write("a.ply", gzip(kPly))).mesh);
+  EXPECT_TRUE(read_off(folder.write("a.off.gz", gzip(kOff))).mesh);
+  EXPECT_EQ(read_ply(folder.write("b.ply.gz", gzip(kPly).substr(0, 50))).problems.at(0),
+            "the compressed data end early");
+}
+
+struct Compiled {
+  Diagnostics diagnostics;
+  SceneDescription description;
+  std::optional<PreparedRender> prepared;
+  std::string messages() const { return diagnostics.format_all(); }
+};
+
+void prepare(Compiled& c) {
+  RenderOverrides overrides;
+  overrides.size = {16, 12};
+  overrides.spp = 4;
+  c.prepared = prepare_render(c.description, overrides, c.diagnostics);
+}
+
+TEST(MeshShapes, OffAndObjInTheLanguage) {
+  const TempFolder folder;
+  folder.write("a.off", kOff);
+  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl lamp\nKd 0 0 0\nKe 2 3 4\n");
+  folder.write("a.obj",
+               "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl lamp\nf 1 2 3\n"
+               "usemtl gone\nf 1 2 3\n");
+  for (const bool materials : {true, false}) {
+    Compiled c;
+    const std::string text = std::string(
+                                 "WorldBegin Material \"conductor\" Shape \"offmesh\" \"string filename\" \"a.off\" "
+                                 "Shape \"objmesh\" \"string filename\" \"a.obj\" \"bool materials\" ") +
+                             (materials ? "true" : "false");
+    c.description = read_pbrt_text(text, "test", folder.path(), c.diagnostics);
+    prepare(c);
+    ASSERT_TRUE(c.prepared) << c.messages();
+    const Scene& scene = *c.prepared->scene;
+    EXPECT_EQ(scene.summary.triangles, 6u);
+    EXPECT_EQ(scene.geometry.meshes.size(), materials ? 5u : 2u);
+    EXPECT_EQ(scene.lights.size(), materials ? 1u : 0u);
+    EXPECT_EQ(c.messages().find("materials that no MTL file has, the current one is used: gone") != std::string::npos,
+              materials)
+        << c.messages();
+    if (!materials) continue;
+    EXPECT_EQ(c.description.shapes[1].material, 0);
+    EXPECT_EQ(
+        c.description.materials[static_cast<size_t>(c.description.shapes[2].material)].use.find("reflectance")->numbers,
+        (std::vector<double>{1, 0, 0}));
+    EXPECT_EQ(c.description.shapes[4].material, 0);
+  }
+}
+
+TEST(MeshShapes, ProblemsInFilesAreErrorsAtTheirShape) {
+  const TempFolder folder;
+  folder.write("a.obj", "v 0 0 0\nf 1 2 3\n");
+  Compiled c;
+  c.description = read_pbrt_text(
+      "WorldBegin Shape \"objmesh\" \"string filename\" \"a.obj\"\nShape \"offmesh\" \"string filename\" \"gone.off\"\n"
+      "Shape \"objmesh\" \"string file\" \"a.obj\"",
+      "test", folder.path(), c.diagnostics);
+  prepare(c);
+  EXPECT_FALSE(c.prepared);
+  for (const char* part : {"test:1:46: error: a.obj: line 2: vertex 2 does not exist",
+                           "gone.off: the file does not exist", "\"objmesh\" takes: filename, materials"})
+    EXPECT_NE(c.messages().find(part), std::string::npos) << part << "\n" << c.messages();
+}
+
+TEST(MeshScene, AMeshFileIsAScene) {
+  const TempFolder folder;
+  folder.write("m.mtl", "newmtl glass\nillum 4\nNi 1.45\nnewmtl gold\nKd 0 0 0\nKs 1 .8 .3\nNs 50\n");
+  const std::filesystem::path files[] = {
+      folder.write("a.off", kOff), folder.write("b.PLY.gz", gzip(kPly)),
+      folder.write("c.obj", "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nusemtl glass\nf 1 2 3\nusemtl gold\nf 3 2 1\n")};
+  for (const auto& file : files) {
+    Compiled c;
+    c.description = read_mesh_scene(file, c.diagnostics);
+    prepare(c);
+    ASSERT_TRUE(c.prepared) << c.messages();
+    EXPECT_EQ(c.messages(), "");
+    RenderObserver nobody;
+    const FinishedRender done = run_render(*c.prepared, nobody);
+    // The mesh is in the middle of the picture, the ground around it, and everything is lit.
+    EXPECT_GT(done.film.sums(0, 11, 0).direct[0], 0.0) << file;
+    EXPECT_EQ(done.film.sums(8, 0, 0).emission[0], 0.0) << file;
+  }
+}
+
+TEST(MeshScene, NoMeshNoScene) {
+  Compiled c;
+  c.description = read_mesh_scene("gone.off", c.diagnostics);
+  prepare(c);
+  EXPECT_FALSE(c.prepared);
+  EXPECT_NE(c.messages().find("gone.off: the file does not exist"), std::string::npos) << c.messages();
+}
+
+}  // namespace
+}  // namespace etd
