@@ -76,13 +76,13 @@ double value(const PixelSums& sums, const Quantity& q) {
   return sum / sums.count;
 }
 
-RunningStats region_mean(const Film& film, const PixelBounds& region, const Quantity& quantity) {
+RunningStats region_mean(const Film& film, const PixelBounds& region, const Quantity& quantity, double factor) {
   RunningStats stats;
   for (uint32_t r = 0; r < film.settings().replicates; ++r) {
     double sum = 0;
     for (int y = region.y0; y < region.y1; ++y)
       for (int x = region.x0; x < region.x1; ++x) sum += value(film.sums(x, y, r), quantity);
-    stats.add(sum / (static_cast<double>(region.width()) * region.height()));
+    stats.add(factor * sum / (static_cast<double>(region.width()) * region.height()));
   }
   return stats;
 }
