@@ -13,6 +13,7 @@
 
 #include "io/image_write.h"
 #include "temp_folder.h"
+#include "tev_peer.h"
 
 namespace etd {
 namespace {
@@ -82,6 +83,9 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
                                                         {"render s.pbrt --size 65536x65536", "the film needs"},
                                                         {"render s.pbrt --spp many", "--spp"},
                                                         {"render s.pbrt --set integrator.mode", "not NAME=VALUE"},
+                                                        {"render s.pbrt --preview a.txt", "cannot write a.txt"},
+                                                        {"render s.pbrt -o a.png --preview ./a.png", "given twice"},
+                                                        {"render s.pbrt --tev host:port", "is not HOST or HOST:PORT"},
                                                         {"render s.pbrt --time soon", "is no time"},
                                                         {"render s.pbrt --error 0", "must be positive"},
                                                         {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
@@ -179,6 +183,29 @@ TEST_F(Cli, DescribeShowsModels) {
   EXPECT_TRUE(has(run("describe --markdown").out, "# "));
 }
 
+TEST_F(Cli, TheViewerReceivesTheImage) {
+  folder_.write("s.pbrt", kScene);
+  TevPeer peer;
+  const std::string arguments = "render s.pbrt -o a.exr --preview a.png --tev 127.0.0.1:" + peer.port();
+  const Finished refused = run(arguments);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(has(refused.err, "cannot reach the viewer tev at 127.0.0.1")) << refused.err;
+  EXPECT_EQ(folder_.entries(), 1);
+
+  peer.listen();
+  std::thread serving([&peer] { peer.accept(), peer.serve(); });
+  const Finished done = run(arguments);
+  serving.join();
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(exists("a.png"));
+  EXPECT_EQ(folder_.entries(), 3);
+  const LayersResult read = read_layers(folder_.path() / "a.exr");
+  ASSERT_TRUE(read.image) << read.error;
+  EXPECT_GE(peer.updates, 2);
+  ASSERT_EQ(peer.images.count("s.pbrt"), 1u);
+  for (const auto& [name, plane] : peer.images["s.pbrt"].channels) EXPECT_EQ(plane, read.image->plane(name)) << name;
+}
+
 // Whether the process has said that it handles SIGINT, which it does while it renders.
 bool catches_interrupts(pid_t pid) {
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
@@ -191,13 +218,42 @@ bool catches_interrupts(pid_t pid) {
   return false;
 }
 
+void wait_until_it_renders(pid_t pid) {
+  for (int i = 0; i < 3000 && !catches_interrupts(pid); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+// Waits until a file of output says this; at most half a minute.
+bool wait_for_text(const std::filesystem::path& path, const std::string& part) {
+  for (int i = 0; i < 3000; ++i) {
+    std::ifstream in(path, std::ios::binary);
+    if (has({std::istreambuf_iterator<char>(in), {}}, part)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+TEST_F(Cli, ALostViewerIsOneWarning) {
+  folder_.write("s.pbrt", kScene);
+  TevPeer peer;
+  peer.listen();
+  const pid_t pid = start("render s.pbrt -o a.exr --spp 100000000 --tev 127.0.0.1:" + peer.port());
+  peer.accept();
+  wait_until_it_renders(pid);
+  peer.slam();
+  EXPECT_TRUE(wait_for_text(log_.path() / "err", "warning: the viewer tev at 127.0.0.1 is lost"));
+  kill(pid, SIGINT);
+  const Finished done = finish(pid);
+  EXPECT_EQ(done.exit_code, 130) << done.err;
+  EXPECT_EQ(done.err.find("warning"), done.err.rfind("warning")) << done.err;
+  EXPECT_TRUE(exists("a.exr"));
+}
+
 TEST_F(Cli, SignalsStopTheRenderAndWriteTheImage) {
   folder_.write("s.pbrt", kScene);
   for (const auto& [signal_number, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
     const std::string name = std::to_string(code) + ".exr";
     const pid_t pid = start("render s.pbrt --spp 100000000 -o " + name);
-    for (int i = 0; i < 1000 && !catches_interrupts(pid); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    wait_until_it_renders(pid);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     kill(pid, signal_number);
     const Finished done = finish(pid);

@@ -1,6 +1,5 @@
 // `etendue render`: a scene goes in, pictures come out.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -11,8 +10,8 @@
 #include "io/file.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
-#include "render/progress.h"
 #include "render/session.h"
+#include "watching.h"
 
 namespace etd::cli {
 namespace {
@@ -20,8 +19,7 @@ namespace {
 struct Arguments : SceneArguments {
   std::vector<std::string> outputs;
   std::string stats;
-  double exposure = 0;
-  bool quiet = false;
+  WatchOptions watch;
 };
 
 constexpr const char* kExamples =
@@ -33,6 +31,7 @@ constexpr const char* kExamples =
     "  etendue render box.pbrt --set integrator.mode=naive  another estimator of the same image\n"
     "  etendue render box.pbrt --time 1m30s                 as good as it gets in that time\n"
     "  etendue render box.pbrt --error 0.02 --time 1h       until the error is 2 %, one hour at most\n"
+    "  etendue render box.pbrt --preview now.png            a picture to look at while it renders\n"
     "\n"
     "--time and --error put the scene's number of samples out of force; --spp still holds. The error is tested\n"
     "at 32, 64, 128 ... samples per pixel, and a render that tests it is labelled biased in its metadata.\n"
@@ -44,20 +43,22 @@ int fail(const std::string& message) {
 }
 
 // Why one of these cannot be written; empty when all can. Found before any work is done.
-std::string output_problem(const std::vector<std::string>& outputs, const std::string& stats) {
+std::string output_problem(const std::vector<std::string>& outputs, const Arguments& args) {
   std::set<std::filesystem::path> places;
   const auto is_new = [&places](const std::string& path) {
     return places.insert(std::filesystem::absolute(path).lexically_normal()).second;
   };
-  for (const std::string& path : outputs) {
+  std::vector<std::string> images = outputs;
+  if (!args.watch.preview.empty()) images.push_back(args.watch.preview);
+  for (const std::string& path : images) {
     if (!is_new(path)) return fmt::format("the output {} is given twice", path);
     if (const std::string problem = check_output_path(path); !problem.empty())
       return fmt::format("cannot write {}: {}", path, problem);
   }
-  if (stats.empty()) return {};
-  if (!is_new(stats)) return fmt::format("the output {} is given twice", stats);
-  const PendingFile trial(stats);
-  return trial.path().empty() ? fmt::format("cannot write {}: {}", stats, trial.error()) : std::string();
+  if (args.stats.empty()) return {};
+  if (!is_new(args.stats)) return fmt::format("the output {} is given twice", args.stats);
+  const PendingFile trial(args.stats);
+  return trial.path().empty() ? fmt::format("cannot write {}: {}", args.stats, trial.error()) : std::string();
 }
 
 // Why there are not all the samples that were asked for.
@@ -89,13 +90,15 @@ bool write_all(const Arguments& args, const std::vector<std::string>& outputs, c
       ok = false;
     }
   };
-  for (const std::string& path : outputs) report(path, write_output(path, image, args.exposure));
+  for (const std::string& path : outputs) report(path, write_output(path, image, args.watch.exposure));
   if (!args.stats.empty()) report(args.stats, write_file(args.stats, stats_json(stats)));
   return ok;
 }
 
 int render_scene(const Arguments& args) {
-  if (const std::string problem = output_problem(args.outputs, args.stats); !problem.empty()) return fail(problem);
+  if (const std::string problem = output_problem(args.outputs, args); !problem.empty()) return fail(problem);
+  Watchers watchers(args.watch);
+  if (const std::string problem = watchers.connect(); !problem.empty()) return fail(problem);
 
   const auto start = std::chrono::steady_clock::now();
   Diagnostics diagnostics(args.allow_unsupported);
@@ -112,19 +115,18 @@ int render_scene(const Arguments& args) {
   std::vector<std::string> outputs = args.outputs;
   if (outputs.empty()) {
     outputs.push_back(std::filesystem::path(prepared->settings.filename).filename().string());
-    if (const std::string problem = output_problem(outputs, args.stats); !problem.empty()) return fail(problem);
+    if (const std::string problem = output_problem(outputs, args); !problem.empty()) return fail(problem);
   }
 
   const InterruptScope interrupts;
-  RenderObserver silent;
-  ProgressPrinter printer(stderr, isatty(STDERR_FILENO) != 0);
-  const FinishedRender finished =
-      run_render(*prepared, args.quiet ? silent : static_cast<RenderObserver&>(printer), &interrupts.stop());
-  printer.finish();
+  RenderObserver& observer = watchers.begin(std::filesystem::path(args.scene).filename().string());
+  const FinishedRender finished = run_render(*prepared, observer, &interrupts.stop());
+  watchers.end_progress();
   RenderStats stats = finished_stats(*prepared, finished);
   stats.load_seconds = load_seconds;
   const bool written = write_all(args, outputs, finished_image(*prepared, finished), stats);
   print_summary(*prepared, finished.result);
+  watchers.end(finished.film);
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
   return written ? kOk : kInternalError;
 }
@@ -157,7 +159,15 @@ void add_render(CLI::App& app, Run& run) {
           "--error", [args](const double& e) { args->overrides.error = e; },
           "stop when the image's relative error is this small, as in 0.02")
       ->type_name("E");
-  command->add_option("--exposure", args->exposure, "stops by which .png and .jpg are brighter (0)")->type_name("EV");
+  command->add_option("--exposure", args->watch.exposure, "stops by which .png and .jpg are brighter (0)")
+      ->type_name("EV");
+  command
+      ->add_option("--preview", args->watch.preview,
+                   "the picture so far, rewritten every few seconds while it renders: .png, .jpg, .hdr, .pfm or .exr")
+      ->type_name("FILE");
+  command
+      ->add_option("--tev", args->watch.tev, "show the picture so far in the viewer tev, which runs there (port 14158)")
+      ->type_name("HOST[:PORT]");
   command
       ->add_option_function<int>(
           "--threads", [args](const int& n) { args->overrides.threads = n; },
@@ -169,7 +179,7 @@ void add_render(CLI::App& app, Run& run) {
           "side of a work item in pixels (16); changes the time and nothing else")
       ->type_name("N");
   command->add_option("--stats", args->stats, "write times, rays and memory as JSON")->type_name("FILE");
-  command->add_flag("--quiet", args->quiet, "no progress");
+  command->add_flag("--quiet", args->watch.quiet, "no progress");
   command->footer(kExamples);
   command->callback([args, &run] { run = [args] { return render_scene(*args); }; });
 }

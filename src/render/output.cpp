@@ -27,14 +27,25 @@ std::vector<std::string> channel_names(bool features) {
   return names;
 }
 
+// The layers of radiance, and the picture that they make.
+struct Radiance {
+  Rgb picture{}, emission{}, direct{}, indirect{};
+};
+
+Radiance radiance(const PixelSums& sums) {
+  Radiance r{.emission = to_floats(sums.mean(sums.emission)),
+             .direct = to_floats(sums.mean(sums.direct)),
+             .indirect = to_floats(sums.mean(sums.indirect))};
+  for (size_t i = 0; i < 3; ++i) r.picture[i] = (r.emission[i] + r.direct[i]) + r.indirect[i];
+  return r;
+}
+
 // The values of one pixel in the order of channel_names().
 void append_pixel(const Film& film, int x, int y, std::vector<float>& out) {
   const PixelSums sums = film.total(x, y);
-  const Rgb emission = to_floats(sums.mean(sums.emission));
-  const Rgb direct = to_floats(sums.mean(sums.direct));
-  const Rgb indirect = to_floats(sums.mean(sums.indirect));
-  for (size_t i = 0; i < 3; ++i) out.push_back((emission[i] + direct[i]) + indirect[i]);
-  for (const Rgb& layer : {emission, direct, indirect}) out.insert(out.end(), layer.begin(), layer.end());
+  const Radiance r = radiance(sums);
+  for (const Rgb& layer : {r.picture, r.emission, r.direct, r.indirect})
+    out.insert(out.end(), layer.begin(), layer.end());
   for (double e : film.standard_error(x, y)) out.push_back(static_cast<float>(e));
   if (!film.settings().features) return;
   for (const Rgb& layer : {to_floats(sums.mean(sums.albedo)), to_floats(sums.mean(sums.normal))})
@@ -87,10 +98,8 @@ std::string bias_text(const std::string& of_integrator, const RenderResult& resu
   return text.empty() ? std::string("nothing") : text;
 }
 
-}  // namespace
-
-LayeredImage make_layers(const Film& film) {
-  const FilmSettings& settings = film.settings();
+// An image of the film's size and place, without pixels.
+LayeredImage empty_image(const FilmSettings& settings, std::vector<std::string> channels) {
   LayeredImage image;
   image.width = settings.crop.width();
   image.height = settings.crop.height();
@@ -98,10 +107,29 @@ LayeredImage make_layers(const Film& film) {
   image.y = settings.crop.y0;
   image.full_width = settings.width;
   image.full_height = settings.height;
-  image.channels = channel_names(settings.features);
+  image.channels = std::move(channels);
   image.pixels.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
+  return image;
+}
+
+}  // namespace
+
+LayeredImage make_layers(const Film& film) {
+  const FilmSettings& settings = film.settings();
+  LayeredImage image = empty_image(settings, channel_names(settings.features));
   for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
     for (int x = settings.crop.x0; x < settings.crop.x1; ++x) append_pixel(film, x, y, image.pixels);
+  return image;
+}
+
+LayeredImage make_picture(const Film& film) {
+  const PixelBounds& crop = film.settings().crop;
+  LayeredImage image = empty_image(film.settings(), {"R", "G", "B"});
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const Rgb picture = radiance(film.total(x, y)).picture;
+      image.pixels.insert(image.pixels.end(), picture.begin(), picture.end());
+    }
   return image;
 }
 

@@ -20,6 +20,9 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 // float layers, so that this sum holds bit for bit in the file.
 LayeredImage make_layers(const Film& film);
 
+// The picture alone: the layers R, G and B of make_layers().
+LayeredImage make_picture(const Film& film);
+
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
 // scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
 // is biased ("nothing" when nothing is) and what stopped it.
