@@ -3,12 +3,16 @@
 
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
+#include "bsdfs/diffuse_transmission.h"
 #include "bsdfs/lambert.h"
+#include "bsdfs/rough_dielectric.h"
+#include "bsdfs/thin_dielectric.h"
 
 namespace etd {
 
 namespace {
-using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric>;
+using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric, RoughDielectric, ThinDielectric,
+                          DiffuseTransmission>;
 }  // namespace
 
 template <class T>
@@ -19,6 +23,9 @@ template Bsdf::Bsdf(const Lambert&);
 template Bsdf::Bsdf(const SmoothConductor&);
 template Bsdf::Bsdf(const RoughConductor&);
 template Bsdf::Bsdf(const SmoothDielectric&);
+template Bsdf::Bsdf(const RoughDielectric&);
+template Bsdf::Bsdf(const ThinDielectric&);
+template Bsdf::Bsdf(const DiffuseTransmission&);
 
 Spectrum Bsdf::eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.eval_cos(wo, wi, mode, rng); });

@@ -4,7 +4,10 @@
 
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
+#include "bsdfs/diffuse_transmission.h"
 #include "bsdfs/lambert.h"
+#include "bsdfs/rough_dielectric.h"
+#include "bsdfs/thin_dielectric.h"
 
 namespace etd {
 
@@ -54,6 +57,30 @@ std::vector<BsdfExample> make_examples() {
   glass("1/1.5", 1.0f / 1.5f);
   glass("2.42", 2.42f);
   glass("1", 1.0f);
+
+  const auto frosted = [&list](std::string name, float eta, float ax, float ay, float min_cos = 0.0f) {
+    list.push_back({"rough_dielectric(" + name + ")", Bsdf(RoughDielectric{eta, {ax, ay}}), false, min_cos});
+  };
+  frosted("1.5, 1", 1.5f, 1.0f, 1.0f);
+  frosted("1.5, 0.5", 1.5f, 0.5f, 0.5f);
+  frosted("1/1.5, 0.5", 1.0f / 1.5f, 0.5f, 0.5f);
+  frosted("1.5, 0.1", 1.5f, 0.1f, 0.1f);
+  frosted("1/1.5, 0.1", 1.0f / 1.5f, 0.1f, 0.1f);
+  frosted("1.5, 0.1 x 0.6", 1.5f, 0.1f, 0.6f);
+  frosted("1.1, 0.3", 1.1f, 0.3f, 0.3f);
+  frosted("2.42, 0.01", 2.42f, 0.01f, 0.01f, 0.01f);
+
+  list.push_back({"thin_dielectric(1.5)", Bsdf(ThinDielectric{1.5f}), true});
+  list.push_back({"thin_dielectric(1/1.5)", Bsdf(ThinDielectric{1.0f / 1.5f}), true});
+  list.push_back({"thin_dielectric(1)", Bsdf(ThinDielectric{1.0f}), true});
+
+  const auto sheet = [&list](std::string name, const Spectrum& r, const Spectrum& t, bool lossless = false) {
+    list.push_back({"diffuse_transmission(" + name + ")", Bsdf(DiffuseTransmission{r, t}), lossless});
+  };
+  sheet("0.25, 0.75", Spectrum(0.25f), Spectrum(0.75f), true);
+  sheet("red, green", Spectrum::rgb(0.6f, 0.1f, 0.0f), Spectrum::rgb(0.1f, 0.5f, 0.2f));
+  sheet("0, 0.5", Spectrum(0.0f), Spectrum(0.5f));
+  sheet("black", Spectrum(0.0f), Spectrum(0.0f));
   return list;
 }
 
