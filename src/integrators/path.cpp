@@ -149,18 +149,19 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
       if (!is_black(radiance)) add(depth, beta * radiance * emission_weight(surface.light, &point));
     }
 
-    const Bsdf bsdf = surface.material->closure({point.uv}, scene_.textures);
+    const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
+    HashStream rng(sampler.key(dimension));
+    const Shading shading = scene_.shade(surface, rng);
+    const Bsdf& bsdf = shading.closure;
     if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
-      out.albedo = bsdf.albedo(Frame::from_z_tangent(point.ns, point.dpdu).to_local(wo));
-      out.normal = face_forward(point.ns, wo);
+      out.albedo = bsdf.albedo(shading.frame.to_local(wo));
+      out.normal = face_forward(shading.frame.z, wo);
       out.depth = path_length;
       out.coverage = 1.0f;
       features_pending = false;
     }
     if (depth == settings_.max_depth) break;
-    const SurfaceScatter scatter(bsdf, Frame::from_z_tangent(point.ns, point.dpdu), point.ng);
-    const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
-    HashStream rng(sampler.key(dimension));
+    const SurfaceScatter scatter(bsdf, shading.frame, point.ng);
 
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {

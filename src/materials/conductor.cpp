@@ -3,44 +3,30 @@
 namespace etd {
 
 const ModelDecl& ConductorMaterial::decl() {
-  static const ModelDecl d{
-      Family::kMaterial,
-      "conductor",
-      "Metal: mirror or GGX microfacets with the Fresnel reflectance of a complex index of refraction.",
-      {{.name = "eta",
-        .type = ParamType::kSpectrumTexture,
-        .default_value = std::string("metal-Cu-eta"),
-        .min = 0,
-        .above_min = true,
-        .doc = "Index of refraction; copper by default."},
-       {.name = "k",
-        .type = ParamType::kSpectrumTexture,
-        .default_value = std::string("metal-Cu-k"),
-        .min = 0,
-        .doc = "Absorption coefficient; copper by default."},
-       {.name = "reflectance",
-        .type = ParamType::kSpectrumTexture,
-        .min = 0,
-        .max = 1,
-        .clamp = true,
-        .doc = "Reflectance at normal incidence, instead of eta and k."},
-       {.name = "roughness",
-        .type = ParamType::kFloatTexture,
-        .default_value = 0.0,
-        .min = 0,
-        .doc = "Width of the lobe along both directions; 0 is a mirror."},
-       {.name = "uroughness",
-        .type = ParamType::kFloatTexture,
-        .min = 0,
-        .doc = "Width along u, when it differs from \"roughness\"."},
-       {.name = "vroughness",
-        .type = ParamType::kFloatTexture,
-        .min = 0,
-        .doc = "Width along v, when it differs from \"roughness\"."},
-       {.name = "remaproughness",
-        .type = ParamType::kBool,
-        .default_value = true,
-        .doc = "Take the microfacet alpha as the square root of the roughness, otherwise as the roughness itself."}}};
+  static const ModelDecl d = [] {
+    ModelDecl m{Family::kMaterial,
+                "conductor",
+                "Metal: mirror or GGX microfacets with the Fresnel reflectance of a complex index of refraction.",
+                {{.name = "eta",
+                  .type = ParamType::kSpectrumTexture,
+                  .default_value = std::string("metal-Cu-eta"),
+                  .min = 0,
+                  .above_min = true,
+                  .doc = "Index of refraction; copper by default."},
+                 {.name = "k",
+                  .type = ParamType::kSpectrumTexture,
+                  .default_value = std::string("metal-Cu-k"),
+                  .min = 0,
+                  .doc = "Absorption coefficient; copper by default."},
+                 {.name = "reflectance",
+                  .type = ParamType::kSpectrumTexture,
+                  .min = 0,
+                  .max = 1,
+                  .clamp = true,
+                  .doc = "Reflectance at normal incidence, instead of eta and k."}}};
+    m = with_params(m, RoughnessSource::params("", 0.0, "of the surface"));
+    return with_params(m, {remap_param()});
+  }();
   return d;
 }
 
@@ -57,8 +43,7 @@ ConductorMaterial ConductorMaterial::create(const ParamReader& p, TextureBuilder
     m.eta = b.spectrum(p, "eta");
     m.k = b.spectrum(p, "k");
   }
-  m.uroughness = b.number(p, p.given("uroughness") ? "uroughness" : "roughness");
-  m.vroughness = b.number(p, p.given("vroughness") ? "vroughness" : "roughness");
+  m.roughness = RoughnessSource::create(p, b, "");
   m.remap = p.boolean("remaproughness");
   return m;
 }

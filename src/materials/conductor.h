@@ -4,13 +4,14 @@
 #include "bsdfs/conductor.h"
 #include "bsdfs/roughness.h"
 #include "materials/material.h"
+#include "materials/parameters.h"
 
 namespace etd {
 
 struct ConductorMaterial {
   SpectrumSource eta, k;       // or, when `by_reflectance`,
   SpectrumSource reflectance;  // at normal incidence
-  FloatSource uroughness, vroughness;
+  RoughnessSource roughness;
   bool by_reflectance = false, remap = true;
 
   static const ModelDecl& decl();
@@ -26,7 +27,7 @@ struct ConductorMaterial {
       n = textures.eval(eta, at);
       kappa = textures.eval(k, at);
     }
-    const auto alpha = microfacet_alpha(textures.eval(uroughness, at), textures.eval(vroughness, at), remap);
+    const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
     if (!alpha) return Bsdf(SmoothConductor{n, kappa});
     return Bsdf(RoughConductor{n, kappa, {alpha->x, alpha->y}});
   }

@@ -1,18 +1,27 @@
-// Clear glass and other smooth insulators.
+// Clear glass and other insulators, smooth or frosted.
 #pragma once
 
 #include "bsdfs/dielectric.h"
+#include "bsdfs/rough_dielectric.h"
+#include "bsdfs/roughness.h"
 #include "materials/material.h"
+#include "materials/parameters.h"
 
 namespace etd {
 
 struct DielectricMaterial {
   float eta = 1.5f;
+  RoughnessSource roughness;
+  bool remap = true;
 
   static const ModelDecl& decl();
   static DielectricMaterial create(const ParamReader& p, TextureBuilder& b);
 
-  Bsdf closure(const TexCoord&, const TextureTable&) const { return Bsdf(SmoothDielectric{eta}); }
+  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
+    const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
+    if (!alpha || eta == 1.0f) return Bsdf(SmoothDielectric{eta});
+    return Bsdf(RoughDielectric{eta, {alpha->x, alpha->y}});
+  }
 };
 
 }  // namespace etd

@@ -4,12 +4,17 @@
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/diffuse_transmission.h"
 #include "materials/interface.h"
+#include "materials/mix.h"
+#include "materials/thin_dielectric.h"
 
 namespace etd {
 
 namespace {
-using Materials = TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial>;
+using Materials = TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
+                           DiffuseTransmissionMaterial, MixMaterial>;
+constexpr uint32_t kMix = Materials::index_of<MixMaterial>();
 }  // namespace
 
 template <class T>
@@ -19,24 +24,60 @@ Material::Material(const T& material) {
 template Material::Material(const DiffuseMaterial&);
 template Material::Material(const ConductorMaterial&);
 template Material::Material(const DielectricMaterial&);
+template Material::Material(const ThinDielectricMaterial&);
+template Material::Material(const DiffuseTransmissionMaterial&);
+template Material::Material(const MixMaterial&);
 
 Bsdf Material::closure(const TexCoord& at, const TextureTable& textures) const {
   return dispatch<Bsdf, Materials>(storage_, [&](const auto& m) { return m.closure(at, textures); });
 }
 
+namespace {
+const MixMaterial* as_mix(const TaggedStorage<160>& storage) {
+  return storage.tag == kMix ? std::launder(reinterpret_cast<const MixMaterial*>(storage.bytes)) : nullptr;
+}
+}  // namespace
+
+const Material& Material::resolve(const TexCoord& at, const TextureTable& textures, std::span<const Material> all,
+                                  HashStream& rng) const {
+  const Material* m = this;
+  while (const MixMaterial* mix = as_mix(m->storage_)) m = &all[mix->choose(at, textures, rng.next_float())];
+  return *m;
+}
+
+std::span<const uint32_t> Material::children() const {
+  const MixMaterial* mix = as_mix(storage_);
+  return mix ? std::span<const uint32_t>(mix->children) : std::span<const uint32_t>();
+}
+
 std::span<const ModelDecl* const> material_models() {
-  static const ModelDecl* const all[] = {&DiffuseMaterial::decl(), &ConductorMaterial::decl(),
-                                         &DielectricMaterial::decl(), &interface_decl()};
+  static const ModelDecl* const all[] = {&DiffuseMaterial::decl(),
+                                         &ConductorMaterial::decl(),
+                                         &DielectricMaterial::decl(),
+                                         &ThinDielectricMaterial::decl(),
+                                         &DiffuseTransmissionMaterial::decl(),
+                                         &MixMaterial::decl(),
+                                         &interface_decl()};
   return all;
 }
 
-std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics) {
+namespace {
+template <class T>
+Material make(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics) {
+  return Material(T::create({T::decl(), use, diagnostics}, textures));
+}
+}  // namespace
+
+std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
+                                      const MaterialNames& names) {
   if (use.model == "interface") return {};
-  if (use.model == "conductor")
-    return Material(ConductorMaterial::create({ConductorMaterial::decl(), use, diagnostics}, textures));
-  if (use.model == "dielectric")
-    return Material(DielectricMaterial::create({DielectricMaterial::decl(), use, diagnostics}, textures));
-  return Material(DiffuseMaterial::create({DiffuseMaterial::decl(), use, diagnostics}, textures));
+  if (use.model == "conductor") return make<ConductorMaterial>(use, textures, diagnostics);
+  if (use.model == "dielectric") return make<DielectricMaterial>(use, textures, diagnostics);
+  if (use.model == "thindielectric") return make<ThinDielectricMaterial>(use, textures, diagnostics);
+  if (use.model == "diffusetransmission") return make<DiffuseTransmissionMaterial>(use, textures, diagnostics);
+  if (use.model == "mix")
+    return Material(MixMaterial::create({MixMaterial::decl(), use, diagnostics}, textures, names));
+  return make<DiffuseMaterial>(use, textures, diagnostics);
 }
 
 }  // namespace etd

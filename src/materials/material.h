@@ -1,8 +1,10 @@
 // The family of materials: what a scene names. A material evaluates its textures at a point into a closure.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "bsdfs/bsdf.h"
 #include "textures/resolve.h"
@@ -13,14 +15,26 @@ class Material {
  public:
   template <class T>
   explicit Material(const T& material);
+  // Of any material but a mix, for which resolve() comes first.
   Bsdf closure(const TexCoord& at, const TextureTable& textures) const;
+
+  // The material itself, or of a mix the one of `all` that is chosen, down to one that is no mix. Takes one number of
+  // the stream for each choice.
+  const Material& resolve(const TexCoord& at, const TextureTable& textures, std::span<const Material> all,
+                          HashStream& rng) const;
+  // The materials that this one refers to, as indices.
+  std::span<const uint32_t> children() const;
 
  private:
   TaggedStorage<160> storage_;
 };
 
+// Where the named materials of a scene stand in its array; nothing for those that are no surface.
+using MaterialNames = std::map<std::string, std::optional<uint32_t>, std::less<>>;
+
 std::span<const ModelDecl* const> material_models();
 // Of a checked use; nothing for "interface", which is no surface at all.
-std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics);
+std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
+                                      const MaterialNames& names = {});
 
 }  // namespace etd

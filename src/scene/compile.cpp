@@ -58,20 +58,38 @@ class TextureOrder {
   std::map<std::pair<std::string, bool>, size_t> names_;
 };
 
+// Reports materials that are mixed of themselves. `visited`: 0 not yet, 1 above the current one, 2 done.
+void reject_cycles(const Scene& scene, uint32_t index, const std::vector<const ModelUse*>& uses,
+                   std::vector<uint8_t>& visited, Diagnostics& diagnostics) {
+  visited[index] = 1;
+  for (const uint32_t child : scene.materials[index].children()) {
+    if (visited[child] == 1)
+      diagnostics.error(uses[index]->loc, "a mix of materials refers to itself");
+    else if (visited[child] == 0)
+      reject_cycles(scene, child, uses, visited, diagnostics);
+  }
+  visited[index] = 2;
+}
+
+// Indices of the description's materials in the scene; material 0 is the default one.
 std::vector<uint32_t> compile_materials(const SceneDescription& description, TextureBuilder& textures, Scene& scene,
                                         Diagnostics& diagnostics) {
+  static const ModelUse kDefault{"diffuse", {}, {}};
   std::vector<uint32_t> material_of{0};
-  scene.materials.push_back(*make_material({"diffuse", {}, {}}, textures, diagnostics));
+  std::vector<const ModelUse*> uses{&kDefault};
+  MaterialNames names;
   for (const MaterialDesc& m : description.materials) {
+    const bool is_surface = m.use.model != "interface";
+    material_of.push_back(is_surface ? static_cast<uint32_t>(uses.size()) : kNoId);
+    if (!m.name.empty()) names[m.name] = is_surface ? std::optional(material_of.back()) : std::nullopt;
+    if (is_surface) uses.push_back(&m.use);
     check(Family::kMaterial, m.use, diagnostics);
     ++scene.summary.materials[m.use.model];
-    if (const auto material = make_material(m.use, textures, diagnostics)) {
-      material_of.push_back(static_cast<uint32_t>(scene.materials.size()));
-      scene.materials.push_back(*material);
-    } else {
-      material_of.push_back(kNoId);
-    }
   }
+  for (const ModelUse* use : uses) scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
+  std::vector<uint8_t> visited(uses.size(), 0);
+  for (uint32_t i = 0; i < uses.size(); ++i)
+    if (visited[i] == 0) reject_cycles(scene, i, uses, visited, diagnostics);
   return material_of;
 }
 

@@ -12,6 +12,12 @@ SurfaceHit Scene::surface(const Hit& hit) const {
   return s;
 }
 
+Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
+  const TexCoord at{surface.point.uv};
+  const Material& material = surface.material->resolve(at, textures, materials, rng);
+  return {material.closure(at, textures), Frame::from_z_tangent(surface.point.ns, surface.point.dpdu)};
+}
+
 size_t Scene::geometry_bytes() const {
   size_t sum = geometry.spheres.size() * sizeof(Sphere) + geometry.instances.size() * sizeof(GeometryInstance);
   for (const Mesh& mesh : geometry.meshes) sum += mesh.bytes();

@@ -30,6 +30,12 @@ struct SurfaceHit {
   uint32_t light = kNoId;
 };
 
+// A closure and the frame in which it scatters.
+struct Shading {
+  Bsdf closure;
+  Frame frame;
+};
+
 // What `etendue info` tells beside the sizes of the arrays.
 struct SceneSummary {
   std::map<std::string, size_t> shapes, materials, textures, lights;  // by model, as the scene names them
@@ -43,6 +49,8 @@ class Scene {
   bool intersect(const Ray& ray, Hit& hit) const { return accelerator->intersect(ray, hit); }
   bool occluded(const Ray& ray) const { return accelerator->occluded(ray); }
   SurfaceHit surface(const Hit& hit) const;
+  // How the surface scatters there. `rng` decides between mixed materials.
+  Shading shade(const SurfaceHit& surface, HashStream& rng) const;
   size_t geometry_bytes() const;
 
   Geometry geometry;

@@ -33,13 +33,6 @@ std::span<const UnsupportedModel> unsupported_models() {
         {"conductor.uroughness", "uroughness"},
         {"conductor.vroughness", "vroughness"},
         {"remaproughness", "remaproughness"}}},
-      {Family::kMaterial, "thindielectric", "interface", "no surface"},
-      {Family::kMaterial,
-       "diffusetransmission",
-       "diffuse",
-       "a diffuse material of the same reflectance",
-       {{"reflectance", "reflectance"}},
-       {"reflectance", 0.25}},
       {Family::kMaterial,
        "subsurface",
        "diffuse",
@@ -47,7 +40,6 @@ std::span<const UnsupportedModel> unsupported_models() {
        {{"reflectance", "reflectance"}}},
       {Family::kMaterial, "hair", "diffuse", "a diffuse material of the same colour", {{"color", "reflectance"}}},
       {Family::kMaterial, "measured", "diffuse", "a diffuse material of reflectance 0.5", {}, {"reflectance", 0.5}},
-      {Family::kMaterial, "mix", "diffuse", "a diffuse material of reflectance 0.5", {}, {"reflectance", 0.5}},
 
       {Family::kTexture, "bilerp", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
       {Family::kTexture, "directionmix", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
@@ -107,9 +99,6 @@ std::span<const UnsupportedParam> unsupported_params() {
 
       {Family::kMaterial, "", "displacement", "0", "the surface without bumps"},
       {Family::kMaterial, "", "normalmap", "", "the surface's own normals"},
-      {Family::kMaterial, "dielectric", "roughness", "0", "a smooth dielectric"},
-      {Family::kMaterial, "dielectric", "uroughness", "0", "a smooth dielectric"},
-      {Family::kMaterial, "dielectric", "vroughness", "0", "a smooth dielectric"},
 
       {Family::kTexture, "", "mapping", "uv", "the uv mapping"},
       {Family::kTexture, "", "v1", "*", "only the planar mapping reads it"},

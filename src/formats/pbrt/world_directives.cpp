@@ -22,6 +22,8 @@ ModelUse supported_material(Parser& p, ModelUse use) {
   use.model = material_name(p, use.model, use.loc);
   p.add_defaults(AttributeTarget::kMaterial, Family::kMaterial, use);
   const SourceLoc loc = use.loc;
+  if (const Param* mixed = use.model == "mix" ? use.find("materials") : nullptr; mixed && !mixed->malformed)
+    for (const std::string& name : mixed->strings) p.names.use_material(name, mixed->value_loc, p.scene);
   return make_supported(Family::kMaterial, std::move(use), p.diagnostics).value_or(ModelUse{"diffuse", {}, loc});
 }
 
