@@ -114,14 +114,13 @@ TEST(PowerLightSampler, ChoosesByItsProbabilities) {
     ASSERT_EQ(choice->probability, sampler.probability(choice->light));
     share[choice->light] += 1.0 / kSteps;
   }
-  double finite_power = 0;
-  for (const Light& l : lights)
-    if (!l.is_infinite()) finite_power += luminance(l.power());
+  double finite_power = 0, infinite_power = 0;
+  for (const Light& l : lights) (l.is_infinite() ? infinite_power : finite_power) += luminance(l.power());
   for (uint32_t i = 0; i < lights.size(); ++i) {
     EXPECT_NEAR(share[i], sampler.probability(i), 1e-5) << light_examples()[i].name;
-    const double expected = lights[i].is_infinite() ? PowerLightSampler::kInfiniteShare
-                                                    : (1.0 - PowerLightSampler::kInfiniteShare) *
-                                                          luminance(lights[i].power()) / finite_power;
+    const double of_its_kind = lights[i].is_infinite() ? PowerLightSampler::kInfiniteShare / infinite_power
+                                                       : (1.0 - PowerLightSampler::kInfiniteShare) / finite_power;
+    const double expected = of_its_kind * luminance(lights[i].power());
     EXPECT_NEAR(sampler.probability(i), expected, 1e-5) << light_examples()[i].name;
   }
 }

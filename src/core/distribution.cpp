@@ -1,5 +1,7 @@
 #include "core/distribution.h"
 
+#include <algorithm>
+
 namespace etd {
 
 AliasTable::AliasTable(std::span<const double> weights) : bins_(weights.size()) {
@@ -38,6 +40,55 @@ AliasTable::AliasTable(std::span<const double> weights) : bins_(weights.size()) 
       bins_[e.index].threshold = 0.0f;
       bins_[e.index].alias = heaviest;
     }
+}
+
+namespace {
+
+// Writes the running sums of the weights over their total, which is returned. The last is exactly 1, and so are those
+// of trailing zeros; all are 0 if the total is.
+template <class T>
+double write_running_sums(std::span<const T> weights, float* out) {
+  double total = 0.0, sum = 0.0;
+  for (const T w : weights) total += w;
+  for (const T w : weights) {
+    sum += w;
+    *out++ = total > 0.0 ? static_cast<float>(sum / total) : 0.0f;
+  }
+  return total;
+}
+
+// The first index whose running sum exceeds u, and where between it and the one before u lies.
+int invert(std::span<const float> sums, float u, float& offset) {
+  const auto it = std::upper_bound(sums.begin(), sums.end() - 1, u);
+  const float before = it == sums.begin() ? 0.0f : *(it - 1);
+  offset = clamp((u - before) / (*it - before), 0.0f, kOneMinusEpsilon);
+  return static_cast<int>(it - sums.begin());
+}
+
+}  // namespace
+
+GridDistribution::GridDistribution(int width, int height, std::span<const double> weights) : width_(width) {
+  const auto w = static_cast<size_t>(width), h = static_cast<size_t>(height);
+  columns_.resize(w * h);
+  std::vector<double> row_totals;
+  for (size_t y = 0; y < h; ++y)
+    row_totals.push_back(write_running_sums(weights.subspan(y * w, w), columns_.data() + y * w));
+  rows_.resize(h);
+  const double total = write_running_sums(std::span<const double>(row_totals), rows_.data());
+  if (!(total > 0.0)) {
+    *this = GridDistribution();
+    return;
+  }
+  probabilities_.reserve(w * h);
+  for (const double weight : weights) probabilities_.push_back(static_cast<float>(weight / total));
+}
+
+GridDistribution::Sample GridDistribution::sample(Vec2 u) const {
+  Sample s;
+  s.y = invert(rows_, u.y, s.offset.y);
+  const auto w = static_cast<size_t>(width_);
+  s.x = invert(std::span(columns_).subspan(static_cast<size_t>(s.y) * w, w), u.x, s.offset.x);
+  return s;
 }
 
 }  // namespace etd

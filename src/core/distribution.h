@@ -1,14 +1,14 @@
-// Choosing one of n things in proportion to weights, in constant time.
+// Choosing one of n things, or a point of a grid, in proportion to weights.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "core/math.h"
+#include "core/vec.h"
 
 namespace etd {
 
-// Walker's alias method as built by Vose (1991).
+// One of n in constant time: Walker's alias method as built by Vose (1991).
 class AliasTable {
  public:
   AliasTable() = default;
@@ -32,6 +32,37 @@ class AliasTable {
     uint32_t alias = 0;
   };
   std::vector<Bin> bins_;
+};
+
+// A point of the unit square whose density is constant in each cell of a grid, by inversion of the distribution of
+// rows and of that within the row, which keeps strata together where alias tables would scatter them.
+class GridDistribution {
+ public:
+  // A cell and where in it, in [0, 1)^2.
+  struct Sample {
+    int x = 0, y = 0;
+    Vec2 offset;
+  };
+
+  GridDistribution() = default;
+  // width * height weights, row by row, finite and not negative. If all are zero, every cell has probability 0.
+  GridDistribution(int width, int height, std::span<const double> weights);
+
+  // Whether any cell can be chosen.
+  bool any() const { return !rows_.empty(); }
+  // The cell for u in [0, 1)^2; only if any() is true.
+  Sample sample(Vec2 u) const;
+  // The probability of a cell: its weight's share, not the difference of rounded sums.
+  float probability(int x, int y) const {
+    return any() ? probabilities_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)] : 0.0f;
+  }
+  size_t bytes() const { return (rows_.size() + columns_.size() + probabilities_.size()) * sizeof(float); }
+
+ private:
+  int width_ = 0;
+  std::vector<float> rows_;     // the sums of rows up to and including each
+  std::vector<float> columns_;  // for each row, the same of its cells
+  std::vector<float> probabilities_;
 };
 
 }  // namespace etd

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "accel/spawn.h"
 #include "materials/surface_scatter.h"
 
@@ -53,8 +55,14 @@ PathSettings PathIntegrator::settings(const ParamReader& p) {
 }
 
 std::string PathIntegrator::bias() const {
-  if (!settings_.indirect) return {};
-  return fmt::format("light after more than {} scattering events is left out", settings_.max_depth);
+  const bool delta =
+      std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& l) { return l.is_delta(); });
+  std::string bias;
+  if (settings_.mode == PathMode::kNaive && delta) bias = "lights without extent, which no ray meets, are left out";
+  if (settings_.indirect)
+    bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
+                        settings_.max_depth);
+  return bias;
 }
 
 namespace {
@@ -68,6 +76,11 @@ float mis_weight(float pdf, float other) {
   if (std::isinf(pdf)) return 1.0f;
   const float p2 = pdf * pdf, o2 = other * other;
   return p2 + o2 > 0.0f && std::isfinite(p2 + o2) ? p2 / (p2 + o2) : (pdf > other ? 1.0f : 0.0f);
+}
+
+// Under MIS scattering reaches every direction as well.
+LightSampling light_sampling(PathMode mode) {
+  return mode == PathMode::kMis ? LightSampling::kCompensated : LightSampling::kComplete;
 }
 
 struct Vertex {
@@ -84,7 +97,7 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
   const auto choice = scene.light_sampler.sample(u_light);
   if (!choice) return Spectrum();
   const Light& light = scene.lights[choice->light];
-  const auto s = light.sample_li(v.point.p, u_point);
+  const auto s = light.sample_li(v.point.p, u_point, light_sampling(mode));
   if (!s) return Spectrum();
   Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
   if (is_black(f)) return Spectrum();
@@ -93,8 +106,8 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
   if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, time) : shadow_ray(v.point, s->on_light, time)))
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
-  const float weight =
-      mode == PathMode::kMis ? mis_weight(pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
+  const bool both = mode == PathMode::kMis && !s->is_delta;
+  const float weight = both ? mis_weight(pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
   return f * s->radiance * (weight / pdf);
 }
 
@@ -125,7 +138,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
   const auto emission_weight = [&](uint32_t light, const SurfacePoint* on_light) {
     if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;
     if (settings_.mode == PathMode::kNextEvent) return 0.0f;
-    const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light);
+    const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode));
     return mis_weight(scatter_pdf, scene_.light_sampler.probability(light) * pdf);
   };
 

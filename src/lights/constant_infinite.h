@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/warp.h"
+#include "lights/infinite.h"
 #include "lights/light.h"
 #include "textures/resolve.h"
 
@@ -10,28 +11,17 @@ namespace etd {
 struct ConstantInfiniteLight {
   Spectrum radiance;
 
-  static const ModelDecl& decl() {
-    static const ModelDecl d{Family::kLight,
-                             "infinite",
-                             "Light from all directions, from infinitely far away.",
-                             {{.name = "L",
-                               .type = ParamType::kSpectrum,
-                               .default_value = 1.0,
-                               .min = 0,
-                               .unit = "W/(m^2 sr)",
-                               .doc = "Radiance of every direction."},
-                              {.name = "scale", .default_value = 1.0, .min = 0, .doc = "Factor on the radiance."}}};
-    return d;
-  }
-  static ConstantInfiniteLight create(const ParamReader& p) {
-    return {emission_value(p, "L") * static_cast<float>(p.number("scale"))};
+  static std::optional<ConstantInfiniteLight> create(const ParamReader& p, const LightContext&) {
+    const Spectrum radiance = emission_value(p, "L");
+    return ConstantInfiniteLight{radiance * emission_scale(p, "illuminance", radiance * kPi)};
   }
 
   bool is_infinite() const { return true; }
-  std::optional<LightSample> sample_li(Point3, Vec2 u) const {
+  bool is_delta() const { return false; }
+  std::optional<LightSample> sample_li(Point3, Vec2 u, LightSampling) const {
     return LightSample{sample_sphere_uniform(u), radiance, pdf_sphere_uniform(), {}};
   }
-  float pdf_li(Point3, Vec3, const SurfacePoint*) const { return pdf_sphere_uniform(); }
+  float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return pdf_sphere_uniform(); }
   Spectrum emitted(const SurfacePoint*, Vec3) const { return radiance; }
   Spectrum power() const { return radiance * (4.0f * sqr(kPi)); }
 };

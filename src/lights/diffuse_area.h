@@ -32,12 +32,13 @@ struct DiffuseAreaLight {
   bool two_sided = false;
 
   bool is_infinite() const { return false; }
+  bool is_delta() const { return false; }
 
   Spectrum emitted(const SurfacePoint* s, Vec3 w) const {
     return two_sided || dot(s->ng, w) > 0.0f ? radiance : Spectrum();
   }
 
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u) const {
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling) const {
     LightSample s;
     float pdf_area = 0;
     s.on_light = surface.sample(u, pdf_area);
@@ -51,7 +52,7 @@ struct DiffuseAreaLight {
     return s;
   }
 
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s) const {
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s, LightSampling) const {
     const Vec3 d = s->p - p;
     const float pdf = to_solid_angle(surface.pdf_area(s->p), dot(d, d), dot(s->ng, wi));
     return std::isfinite(pdf) ? pdf : 0.0f;

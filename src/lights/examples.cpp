@@ -1,7 +1,14 @@
 #include "lights/examples.h"
 
+#include "core/hash.h"
 #include "lights/constant_infinite.h"
 #include "lights/diffuse_area.h"
+#include "lights/distant.h"
+#include "lights/goniometric.h"
+#include "lights/image_infinite.h"
+#include "lights/point.h"
+#include "lights/projection.h"
+#include "lights/spot.h"
 
 namespace etd {
 
@@ -23,6 +30,48 @@ LightExample sphere(std::string name, bool two_sided, bool flip, const Transform
   return {std::move(name), Light(light), nullptr, s};
 }
 
+// Values from 0 to 4, many of them 0, one of them large.
+Image uneven_image(int width, int height) {
+  HashStream numbers(7);
+  std::vector<float> values;
+  for (int i = 0; i < width * height * 3; ++i) values.push_back(std::max(0.0f, 5.0f * numbers.next_float() - 1.0f));
+  values[static_cast<size_t>(width * height / 2 * 3 + 3)] = 30.0f;
+  return {width, height, 3, std::move(values)};
+}
+
+const Frame& turned() {
+  static const Frame frame = Frame::from_z(normalize(Vec3{1, -2, 0.5f}));
+  return frame;
+}
+
+LightExample sky(std::string name, int width, int height, LightSampling sampling) {
+  auto data = std::make_shared<LightData>();
+  const EnvironmentMap& map = data->environments.emplace_back(uneven_image(width, height));
+  return {std::move(name), Light(ImageInfiniteLight{&map, turned(), 0.5f}), nullptr, nullptr, data, sampling};
+}
+
+LightExample goniometric() {
+  auto data = std::make_shared<LightData>();
+  const EnvironmentMap& map = data->environments.emplace_back(uneven_image(4, 4));
+  const GoniometricIntensity intensity{Spectrum::rgb(1.0f, 2.0f, 3.0f), &map, turned()};
+  return {"goniometric", Light(PointLight<GoniometricIntensity>{{-0.4f, 0.6f, 0.1f}, intensity}), nullptr, nullptr,
+          data};
+}
+
+LightExample projection() {
+  auto data = std::make_shared<LightData>();
+  ProjectionIntensity intensity;
+  intensity.image = &data->images.emplace_back(uneven_image(6, 3));
+  intensity.axes = turned();
+  intensity.half_x = 1.6f, intensity.half_y = 0.8f, intensity.scale = 2.0f;
+  return {"projection", Light(PointLight<ProjectionIntensity>{{0.5f, 0.2f, -0.3f}, intensity}), nullptr, nullptr, data};
+}
+
+LightExample spot(std::string name, float cos_inner, float cos_outer) {
+  const SpotIntensity intensity{Spectrum::rgb(3.0f, 2.0f, 1.0f), turned().z, cos_inner, cos_outer};
+  return {std::move(name), Light(PointLight<SpotIntensity>{{0.3f, 0.1f, 0.9f}, intensity}), nullptr, nullptr};
+}
+
 std::vector<LightExample> make_examples() {
   const Transform half = Transform::scale({0.5, 0.5, 0.5});
   const Transform egg =
@@ -40,6 +89,18 @@ std::vector<LightExample> make_examples() {
       sphere("diffuse(ellipsoid)", false, false, egg),
       sphere("diffuse(ellipsoid, two-sided)", true, true, egg),
       {"infinite(constant)", Light(ConstantInfiniteLight{Spectrum::rgb(0.3f, 1.0f, 4.0f)}), nullptr, nullptr},
+      sky("infinite(equal-area image)", 8, 8, LightSampling::kComplete),
+      sky("infinite(equal-area image, compensated)", 8, 8, LightSampling::kCompensated),
+      sky("infinite(latitude-longitude image)", 12, 6, LightSampling::kComplete),
+      sky("infinite(latitude-longitude image, compensated)", 12, 6, LightSampling::kCompensated),
+      {"distant", Light(DistantLight{turned().x, Spectrum::rgb(3.0f, 2.0f, 1.0f)}), nullptr, nullptr},
+      {"point", Light(PointLight<IsotropicIntensity>{{1, 0.5f, -0.7f}, {Spectrum::rgb(3.0f, 2.0f, 1.0f)}}), nullptr,
+       nullptr},
+      spot("spot", 0.8f, 0.6f),
+      spot("spot(hard edge)", 0.7f, 0.7f),
+      spot("spot(wide)", 0.2f, -0.9f),
+      goniometric(),
+      projection(),
   };
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "lights/light.h"
+#include "lights/light_data.h"
 #include "shapes/mesh.h"
 #include "shapes/sphere.h"
 
@@ -17,6 +17,9 @@ struct LightExample {
   // The surface it is on, as it refers to: one triangle, one sphere, or none. Near the origin, at most 3 away.
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Sphere> sphere;
+  // The images it refers to.
+  std::shared_ptr<const LightData> data = {};
+  LightSampling sampling = LightSampling::kComplete;
 };
 
 // The same list at every call, in a fixed order.

@@ -3,11 +3,19 @@
 
 #include "lights/constant_infinite.h"
 #include "lights/diffuse_area.h"
+#include "lights/distant.h"
+#include "lights/goniometric.h"
+#include "lights/image_infinite.h"
+#include "lights/point.h"
+#include "lights/projection.h"
+#include "lights/spot.h"
 
 namespace etd {
 
 namespace {
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<SphereSurface>, ConstantInfiniteLight>;
+using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<SphereSurface>, ConstantInfiniteLight,
+                        ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
+                        PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
 
 template <class T>
@@ -17,17 +25,28 @@ Light::Light(const T& light) {
 template Light::Light(const DiffuseAreaLight<TriangleSurface>&);
 template Light::Light(const DiffuseAreaLight<SphereSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
+template Light::Light(const ImageInfiniteLight&);
+template Light::Light(const DistantLight&);
+template Light::Light(const PointLight<IsotropicIntensity>&);
+template Light::Light(const PointLight<SpotIntensity>&);
+template Light::Light(const PointLight<GoniometricIntensity>&);
+template Light::Light(const PointLight<ProjectionIntensity>&);
 
 bool Light::is_infinite() const {
   return dispatch<bool, Lights>(storage_, [](const auto& l) { return l.is_infinite(); });
 }
 
-std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u) const {
-  return dispatch<std::optional<LightSample>, Lights>(storage_, [&](const auto& l) { return l.sample_li(p, u); });
+bool Light::is_delta() const {
+  return dispatch<bool, Lights>(storage_, [](const auto& l) { return l.is_delta(); });
 }
 
-float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light) const {
-  return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light); });
+std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u, LightSampling sampling) const {
+  return dispatch<std::optional<LightSample>, Lights>(storage_,
+                                                      [&](const auto& l) { return l.sample_li(p, u, sampling); });
+}
+
+float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const {
+  return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, sampling); });
 }
 
 Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w) const {
@@ -41,13 +60,33 @@ Spectrum Light::power() const {
 uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }
 
 std::span<const ModelDecl* const> light_models() {
-  static const ModelDecl* const all[] = {&ConstantInfiniteLight::decl()};
+  static const ModelDecl* const all[] = {
+      &infinite_decl(),       &DistantLight::decl(),         &IsotropicIntensity::decl(),
+      &SpotIntensity::decl(), &GoniometricIntensity::decl(), &ProjectionIntensity::decl()};
   return all;
 }
 
 std::span<const ModelDecl* const> area_light_models() {
   static const ModelDecl* const all[] = {&diffuse_area_decl()};
   return all;
+}
+
+std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics) {
+  const auto light = [](const auto& made) { return made ? std::optional(Light(*made)) : std::nullopt; };
+  const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
+  if (use.model == "infinite") {
+    const ParamReader p = reader(infinite_decl());
+    return p.given("filename") ? light(ImageInfiniteLight::create(p, context))
+                               : light(ConstantInfiniteLight::create(p, context));
+  }
+  if (use.model == "distant") return light(DistantLight::create(reader(DistantLight::decl()), context));
+  if (use.model == "point") return light(IsotropicIntensity::create(reader(IsotropicIntensity::decl()), context));
+  if (use.model == "spot") return light(SpotIntensity::create(reader(SpotIntensity::decl()), context));
+  if (use.model == "goniometric")
+    return light(GoniometricIntensity::create(reader(GoniometricIntensity::decl()), context));
+  if (use.model == "projection")
+    return light(ProjectionIntensity::create(reader(ProjectionIntensity::decl()), context));
+  return {};
 }
 
 }  // namespace etd

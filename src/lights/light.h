@@ -1,10 +1,13 @@
-// The family of lights. A light on a surface is one triangle or one sphere; an infinite light surrounds the scene.
+// The family of lights. A light on a surface is one triangle or one sphere; an infinite light surrounds the scene; a
+// delta light sends what it sends from a single point or direction, so that only sampling the light finds it.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 
 #include "core/tagged.h"
+#include "core/transform.h"
 #include "params/declaration.h"
 #include "shapes/surface_point.h"
 #include "spectrum/spectrum.h"
@@ -15,9 +18,15 @@ namespace etd {
 struct LightSample {
   Vec3 wi;                // unit direction to the light
   Spectrum radiance;      // that leaves the light towards the point
-  float pdf = 0;          // per solid angle at the point
+  float pdf = 0;          // per solid angle at the point; 1 of a delta light, whose radiance is irradiance across wi
   SurfacePoint on_light;  // where it comes from; unused when infinite
+  bool is_delta = false;
 };
+
+// What light sampling can count on. With kComplete its density is positive wherever light may come from; with
+// kCompensated another technique covers all directions as well (multiple importance sampling), and so the density may
+// leave out what that one finds easily.
+enum class LightSampling : uint8_t { kComplete, kCompensated };
 
 class Light {
  public:
@@ -25,11 +34,15 @@ class Light {
   explicit Light(const T& light);
 
   bool is_infinite() const;
+  bool is_delta() const;
   // Nothing when the sample carries no light (wrong side, degenerate geometry): that is an estimate of 0.
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u) const;
-  // Solid-angle density with which sample_li makes wi; `on_light` is the point met there, null for infinite lights.
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light) const;
-  // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w.
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling sampling = LightSampling::kComplete) const;
+  // Solid-angle density with which sample_li makes wi; `on_light` is the point met there, null for infinite lights. 0
+  // for delta lights.
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light,
+               LightSampling sampling = LightSampling::kComplete) const;
+  // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w. 0 for
+  // delta lights.
   Spectrum emitted(const SurfacePoint* on_light, Vec3 w) const;
   // Emitted power of finite lights, W (per lane). Infinite lights have none that does not depend on the scene: theirs
   // is the power through a unit disk, over all directions.
@@ -39,10 +52,21 @@ class Light {
   static uint32_t kind_count();
 
  private:
-  TaggedStorage<64> storage_;
+  TaggedStorage<96> storage_;
+};
+
+struct LightData;
+
+// What a light is made in, beside its parameters.
+struct LightContext {
+  Transform to_world;            // to the recentred world
+  std::filesystem::path folder;  // where relative file names start
+  LightData& data;               // keeps what the light refers to
 };
 
 std::span<const ModelDecl* const> light_models();
+// Of a checked use that is no area light; nothing for an unknown name and when something is wrong, which is reported.
+std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics);
 std::span<const ModelDecl* const> area_light_models();
 
 }  // namespace etd

@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "lights/constant_infinite.h"
 #include "scene/compile_geometry.h"
 #include "scene/registry.h"
 
@@ -93,6 +92,21 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
   return material_of;
 }
 
+// The lights that are no surfaces, behind those that are.
+void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
+  const Transform to_recentred = Transform::translate(-scene.origin);
+  for (const LightDesc& desc : description.lights) {
+    check(Family::kLight, desc.use, diagnostics);
+    const auto light =
+        make_light(desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data}, diagnostics);
+    if (!light) continue;
+    if (light->is_infinite() && !light->is_delta())
+      scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
+    scene.lights.push_back(*light);
+    ++scene.summary.lights[desc.use.model];
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
@@ -105,14 +119,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   compile_geometry(description, material_of, *scene, diagnostics);
 
-  for (const LightDesc& light : description.lights) {
-    check(Family::kLight, light.use, diagnostics);
-    if (light.use.model != "infinite") continue;  // the readers have reported what is not there
-    scene->infinite_lights.push_back(static_cast<uint32_t>(scene->lights.size()));
-    scene->lights.push_back(
-        Light(ConstantInfiniteLight::create({ConstantInfiniteLight::decl(), light.use, diagnostics})));
-    ++scene->summary.lights[light.use.model];
-  }
+  compile_lights(description, *scene, diagnostics);
 
   check(Family::kCamera, description.camera, diagnostics);
   check(Family::kFilter, description.filter, diagnostics);

@@ -12,6 +12,7 @@
 #include "core/bounds.h"
 #include "filters/filter.h"
 #include "light_sampling/power_light_sampler.h"
+#include "lights/light_data.h"
 #include "materials/material.h"
 
 namespace etd {
@@ -58,7 +59,8 @@ class Scene {
   std::vector<Material> materials;
   TextureTable textures;
   std::vector<Light> lights;
-  std::vector<uint32_t> infinite_lights;
+  std::vector<uint32_t> infinite_lights;  // those that rays can find
+  LightData light_data;
   PowerLightSampler light_sampler;
   Camera camera;
   Filter filter;

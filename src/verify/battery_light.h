@@ -17,7 +17,8 @@ struct LightModel {
   std::string name;
   Geometry geometry;
   Spectrum power;
-  bool infinite = false;
+  bool infinite = false, delta = false;
+  LightSampling sampling = LightSampling::kComplete;
   std::function<std::optional<LightSample>(Point3, Vec2)> sample_li;
   std::function<float(Point3, Vec3, const SurfacePoint*)> pdf_li;
   std::function<Spectrum(const SurfacePoint*, Vec3)> emitted;
@@ -37,6 +38,8 @@ struct LightBatteryOptions {
 // - the visible samples follow pdf_li() (chi-square with a cell for all others), whose integral is their share;
 // - radiance integrated over directions with three weights agrees between light samples and rays in all directions;
 // - power() agrees with the flux along random lines (infinite: through a disk of area pi).
+// Compensated samples need not bring all the radiance. Of delta lights: pdf is 1 and pdf_li() and emitted() are 0, and
+// power() agrees with the flux of the samples through a sphere.
 std::vector<CheckResult> check_light(const LightModel& model, const LightBatteryOptions& options);
 
 }  // namespace etd

@@ -51,12 +51,6 @@ std::span<const UnsupportedModel> unsupported_models() {
       {Family::kTexture, "windy", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
       {Family::kTexture, "wrinkled", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
 
-      {Family::kLight, "distant", "", "no light"},
-      {Family::kLight, "goniometric", "", "no light"},
-      {Family::kLight, "point", "", "no light"},
-      {Family::kLight, "projection", "", "no light"},
-      {Family::kLight, "spot", "", "no light"},
-
       {Family::kCamera, "orthographic", "perspective", "a perspective camera of the default field of view"},
       {Family::kCamera, "realistic", "perspective", "a perspective camera of the default field of view"},
       {Family::kCamera, "spherical", "perspective", "a perspective camera of the default field of view"},
@@ -106,9 +100,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kTexture, "checkerboard", "dimension", "2", "a pattern of 2 dimensions"},
       {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
 
-      {Family::kLight, "", "power", "-1", "the radiance that L and scale give"},
-      {Family::kLight, "infinite", "filename", "", "a constant environment"},
-      {Family::kLight, "infinite", "illuminance", "-1", "the radiance that L and scale give"},
       {Family::kLight, "infinite", "portal", "", "light from all directions"},
       {Family::kAreaLight, "diffuse", "filename", "", "the same radiance everywhere"},
       {Family::kAreaLight, "diffuse", "power", "-1", "the radiance that L and scale give"},

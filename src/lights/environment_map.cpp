@@ -1,0 +1,186 @@
+#include "lights/environment_map.h"
+
+#include <fmt/format.h>
+
+namespace etd {
+
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+}  // namespace
+
+// The upper hemisphere fills the diamond |a| + |b| <= 1 of the square [-1, 1]^2, the lower one what is beyond, mirrored
+// in the diamond's edges. Within a quadrant of the diamond, r = |a| + |b| = sqrt(1 - z) makes rings of the right area,
+// and the angle is spread evenly along each ring.
+Vec3 equal_area_direction(Vec2 st) {
+  const float a = 2.0f * st.x - 1.0f, b = 2.0f * st.y - 1.0f;
+  const float inside = 1.0f - std::abs(a) - std::abs(b);  // negative in the lower hemisphere
+  const float r = 1.0f - std::abs(inside);
+  const float phi = r > 0.0f ? (kPi / 4.0f) * (1.0f + (std::abs(b) - std::abs(a)) / r) : 0.0f;
+  const float sin_theta = r * safe_sqrt(2.0f - r * r);
+  return {std::copysign(sin_theta * std::cos(phi), a), std::copysign(sin_theta * std::sin(phi), b),
+          std::copysign(1.0f - r * r, inside)};
+}
+
+Vec2 equal_area_square(Vec3 w) {
+  // 1 - |z| without cancellation near the poles.
+  const float r = safe_sqrt((w.x * w.x + w.y * w.y) / (1.0f + std::abs(w.z)));
+  const float across = r * std::atan2(std::abs(w.y), std::abs(w.x)) * (2.0f * kInvPi);
+  float a = r - across, b = across;
+  if (w.z < 0.0f) {
+    const float folded = 1.0f - b;
+    b = 1.0f - a;
+    a = folded;
+  }
+  return {0.5f + 0.5f * std::copysign(a, w.x), 0.5f + 0.5f * std::copysign(b, w.y)};
+}
+
+std::optional<EnvironmentMap::Layout> EnvironmentMap::layout_of(int width, int height) {
+  if (width == height) return Layout::kEqualArea;
+  if (width == 2 * height) return Layout::kLatLong;
+  return {};
+}
+
+EnvironmentMap::EnvironmentMap(const Image& image)
+    : layout_(layout_of(image.width(), image.height()).value_or(Layout::kEqualArea)),
+      width_(image.width()),
+      height_(image.height()) {
+  set_solid_angles();
+  const size_t count = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+  texels_.reserve(count);
+  std::vector<double> weights, above_average;
+  double total = 0, integral[3] = {0, 0, 0};
+  for (int y = 0; y < height_; ++y) {
+    const double solid_angle = solid_angles_[static_cast<size_t>(y)];
+    for (int x = 0; x < width_; ++x) {
+      std::array<float, 3> rgb;
+      for (int c = 0; c < 3; ++c)
+        rgb[static_cast<size_t>(c)] = std::max(0.0f, image.texel(x, y, image.channels() == 1 ? 0 : c));
+      texels_.push_back(rgb);
+      for (size_t c = 0; c < 3; ++c) integral[c] += static_cast<double>(rgb[c]) * solid_angle;
+      weights.push_back((static_cast<double>(rgb[0]) + rgb[1] + rgb[2]) / 3.0 * solid_angle);
+      total += weights.back();
+    }
+  }
+  integral_ =
+      Spectrum::rgb(static_cast<float>(integral[0]), static_cast<float>(integral[1]), static_cast<float>(integral[2]));
+  full_ = GridDistribution(width_, height_, weights);
+  // Karlik et al. 2019, "MIS Compensation", section 6: the average is what scattering finds well enough alone. Where
+  // that leaves nothing to speak of, the map is constant but for rounding.
+  const double average = total / (4.0 * kPiD);
+  double kept = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const double share = average * solid_angles_[i / static_cast<size_t>(width_)];
+    above_average.push_back(std::max(0.0, weights[i] - share));
+    kept += above_average.back();
+  }
+  compensated_ = kept > 1e-4 * total ? GridDistribution(width_, height_, above_average) : full_;
+}
+
+void EnvironmentMap::set_solid_angles() {
+  const double step = kPiD / height_;
+  for (int y = 0; y <= height_; ++y) row_cosines_.push_back(std::cos(y * step));
+  for (int y = 0; y < height_; ++y)
+    solid_angles_.push_back(layout_ == Layout::kEqualArea
+                                ? 4.0 * kPiD / (static_cast<double>(width_) * height_)
+                                // The difference of two cosines, without cancellation at the poles.
+                                : 4.0 * kPiD / width_ * std::sin(0.5 * step) * std::sin((y + 0.5) * step));
+}
+
+EnvironmentMap::Cell EnvironmentMap::cell_of(Vec3 w) const {
+  Vec2 st;
+  if (layout_ == Layout::kEqualArea) {
+    st = equal_area_square(w);
+  } else {
+    const float phi = std::atan2(w.y, w.x);
+    st.x = (phi < 0.0f ? phi + 2.0f * kPi : phi) * (0.5f * kInvPi);
+    st.y = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z) * kInvPi;
+  }
+  return {std::min(static_cast<int>(st.x * static_cast<float>(width_)), width_ - 1),
+          std::min(static_cast<int>(st.y * static_cast<float>(height_)), height_ - 1)};
+}
+
+Vec3 EnvironmentMap::direction(const GridDistribution::Sample& at) const {
+  const float s = (static_cast<float>(at.x) + at.offset.x) / static_cast<float>(width_);
+  if (layout_ == Layout::kEqualArea)
+    return equal_area_direction({s, (static_cast<float>(at.y) + at.offset.y) / static_cast<float>(height_)});
+  // Uniform in the cosine between the row's edges.
+  const auto row = static_cast<size_t>(at.y);
+  const double top = row_cosines_[row], bottom = row_cosines_[row + 1];
+  const double cos_theta = top + (bottom - top) * at.offset.y;
+  const double sin_theta = std::sqrt(std::max(0.0, 1.0 - cos_theta * cos_theta)), phi = 2.0 * kPiD * s;
+  return to_float(Vec3d{sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
+}
+
+Spectrum EnvironmentMap::value(Vec3 w) const {
+  const Cell c = cell_of(w);
+  const auto& t = texels_[static_cast<size_t>(c.y) * static_cast<size_t>(width_) + static_cast<size_t>(c.x)];
+  return Spectrum::rgb(t[0], t[1], t[2]);
+}
+
+std::optional<Vec3> EnvironmentMap::sample(Vec2 u, LightSampling sampling) const {
+  const GridDistribution& d = distribution(sampling);
+  if (!d.any()) return {};
+  return direction(d.sample(u));
+}
+
+float EnvironmentMap::pdf(Vec3 w, LightSampling sampling) const {
+  const Cell c = cell_of(w);
+  return distribution(sampling).probability(c.x, c.y) / static_cast<float>(solid_angles_[static_cast<size_t>(c.y)]);
+}
+
+Spectrum EnvironmentMap::irradiance_up() const {
+  // The middle of many small parts of each texel, each as large as any other in the same texel.
+  const int parts = std::max(1, 512 / height_);
+  double sum[3] = {0, 0, 0};
+  GridDistribution::Sample at;
+  for (at.y = 0; at.y < height_; ++at.y)
+    for (at.x = 0; at.x < width_; ++at.x) {
+      double cosine = 0;
+      for (int i = 0; i < parts * parts; ++i) {
+        at.offset = {(static_cast<float>(i % parts) + 0.5f) / static_cast<float>(parts),
+                     (static_cast<float>(i / parts) + 0.5f) / static_cast<float>(parts)};
+        cosine += std::max(0.0f, direction(at).z);
+      }
+      const auto& t = texels_[static_cast<size_t>(at.y) * static_cast<size_t>(width_) + static_cast<size_t>(at.x)];
+      for (size_t c = 0; c < 3; ++c)
+        sum[c] += t[c] * cosine / (parts * parts) * solid_angles_[static_cast<size_t>(at.y)];
+    }
+  return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
+}
+
+std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder) {
+  const Param* file = params.given("filename");
+  if (!file) return {};
+  const std::string& name = file->strings[0];
+  ImageResult result = read_image(folder / name);
+  if (!result.image) {
+    params.diagnostics().error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error));
+    return {};
+  }
+  const Image& image = *result.image;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      for (int c = 0; c < std::min(image.channels(), 3); ++c)
+        if (!std::isfinite(image.texel(x, y, c))) {
+          params.diagnostics().error(
+              file->value_loc,
+              fmt::format("image \"{}\" can't be a light: its texel ({}, {}) is not finite", name, x, y));
+          return {};
+        }
+  return std::move(result.image);
+}
+
+std::optional<EnvironmentMap> read_environment(const ParamReader& params, const std::filesystem::path& folder) {
+  const std::optional<Image> image = read_light_image(params, folder);
+  if (!image) return {};
+  if (EnvironmentMap::layout_of(image->width(), image->height())) return EnvironmentMap(*image);
+  params.diagnostics().error(params.given("filename")->value_loc,
+                             fmt::format("image \"{}\" of {} x {} texels is no map of directions",
+                                         params.given("filename")->strings[0], image->width(), image->height()),
+                             "valid: square (equal-area octahedral), or twice as wide as high (latitude-longitude)");
+  return {};
+}
+
+}  // namespace etd

@@ -1,0 +1,75 @@
+// Radiance (or intensity) by direction from an image: constant over each texel, so that what is evaluated, sampled and
+// integrated is one and the same function, exactly.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/distribution.h"
+#include "io/image.h"
+#include "lights/light.h"
+
+namespace etd {
+
+class EnvironmentMap {
+ public:
+  // How texels lie on the sphere of directions; row 0 is the image's top.
+  enum class Layout : uint8_t {
+    // Square: the octahedron unfolded so that all texels have the same solid angle (Clarberg 2008, "Fast Equal-Area
+    // Mapping of the (Hemi)Sphere using SIMD"), +z in the middle, -z in the corners, +x to the right, +y down.
+    kEqualArea,
+    // Twice as wide as high: theta = pi v from +z down the rows, phi = 2 pi u from +x towards +y along them.
+    kLatLong
+  };
+  // By the image's proportions; nothing for others.
+  static std::optional<Layout> layout_of(int width, int height);
+
+  // The image's colours, negative ones as 0. Its proportions are those of a layout, and its values are finite.
+  explicit EnvironmentMap(const Image& image);
+
+  // The value in the unit direction w.
+  Spectrum value(Vec3 w) const;
+  // A direction in proportion to the mean of R, G and B, or to what exceeds its average when `sampling` is
+  // kCompensated; nothing when the map is black.
+  std::optional<Vec3> sample(Vec2 u, LightSampling sampling) const;
+  // Density of sample() at the unit direction w, per solid angle.
+  float pdf(Vec3 w, LightSampling sampling) const;
+
+  // Over all directions, sr times the unit of the values.
+  Spectrum integral() const { return integral_; }
+  // Irradiance on a surface whose normal is +z.
+  Spectrum irradiance_up() const;
+  size_t bytes() const { return texels_.size() * sizeof(texels_[0]) + full_.bytes() + compensated_.bytes(); }
+
+ private:
+  struct Cell {
+    int x, y;
+  };
+  Cell cell_of(Vec3 w) const;
+  Vec3 direction(const GridDistribution::Sample& at) const;
+  void set_solid_angles();
+  const GridDistribution& distribution(LightSampling s) const {
+    return s == LightSampling::kComplete ? full_ : compensated_;
+  }
+
+  Layout layout_;
+  int width_, height_;
+  std::vector<std::array<float, 3>> texels_;
+  std::vector<double> solid_angles_;  // of a texel, for each row
+  std::vector<double> row_cosines_;   // of theta above each row and below the last, for kLatLong
+  GridDistribution full_, compensated_;
+  Spectrum integral_;
+};
+
+// The square [0, 1]^2 to the unit sphere and back, by the equal-area layout.
+Vec3 equal_area_direction(Vec2 st);
+Vec2 equal_area_square(Vec3 w);
+
+// Reads the image of a light's "filename". Reports what keeps it from being one (unreadable, values that are not
+// finite), and then gives nothing.
+std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder);
+// The same as a map of directions.
+std::optional<EnvironmentMap> read_environment(const ParamReader& params, const std::filesystem::path& folder);
+
+}  // namespace etd

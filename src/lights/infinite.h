@@ -1,0 +1,28 @@
+// The declaration that both infinite lights share: a constant one, and one with an image.
+#pragma once
+
+#include "lights/light_params.h"
+
+namespace etd {
+
+inline const ModelDecl& infinite_decl() {
+  static const ModelDecl d{
+      Family::kLight,
+      "infinite",
+      "Light from all directions, from infinitely far away.",
+      {{.name = "L",
+        .type = ParamType::kSpectrum,
+        .default_value = 1.0,
+        .min = 0,
+        .unit = "W/(m^2 sr)",
+        .doc = "Radiance of every direction."},
+       filename_param("Image of the radiance by direction, instead of L: square (equal-area octahedral, as pbrt-v4 has "
+                      "it, +z in the middle), or twice as wide as high (latitude-longitude, +z above, from +x towards "
+                      "+y).",
+                      false),
+       scale_param(),
+       illuminance_param("facing the light's +z")}};
+  return d;
+}
+
+}  // namespace etd

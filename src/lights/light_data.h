@@ -1,0 +1,22 @@
+// What lights are too small to hold themselves. Nothing in it moves while lights are added.
+#pragma once
+
+#include <deque>
+
+#include "lights/environment_map.h"
+
+namespace etd {
+
+struct LightData {
+  std::deque<EnvironmentMap> environments;
+  std::deque<Image> images;
+
+  size_t bytes() const {
+    size_t sum = 0;
+    for (const EnvironmentMap& map : environments) sum += map.bytes();
+    for (const Image& image : images) sum += image.bytes();
+    return sum;
+  }
+};
+
+}  // namespace etd

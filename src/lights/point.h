@@ -1,0 +1,29 @@
+// The same intensity in all directions from one point.
+#pragma once
+
+#include "lights/point_lights.h"
+#include "textures/resolve.h"
+
+namespace etd {
+
+struct IsotropicIntensity {
+  Spectrum value;
+
+  static const ModelDecl& decl() {
+    static const ModelDecl d{Family::kLight,
+                             "point",
+                             "The same light in all directions from one point.",
+                             {intensity_param(), position_param(), scale_param(), power_param()}};
+    return d;
+  }
+  static std::optional<PointLight<IsotropicIntensity>> create(const ParamReader& p, const LightContext& context) {
+    const Spectrum value = emission_value(p, "I");
+    return PointLight<IsotropicIntensity>{light_position(p, context),
+                                          {value * emission_scale(p, "power", value * (4.0f * kPi))}};
+  }
+
+  Spectrum intensity(Vec3) const { return value; }
+  Spectrum power() const { return value * (4.0f * kPi); }
+};
+
+}  // namespace etd

@@ -1,0 +1,62 @@
+// Lights whose radiant intensity leaves a single point: what the isotropic, spot, goniometric and projection lights
+// share. Each of them is a distribution of intensity over directions.
+#pragma once
+
+#include "lights/light.h"
+#include "lights/light_params.h"
+
+namespace etd {
+
+// Intensity: Spectrum intensity(Vec3 w) in W/sr along the unit direction w in the world, Spectrum power() in W.
+template <class Intensity>
+struct PointLight {
+  Point3 position;
+  Intensity emission;
+
+  bool is_infinite() const { return false; }
+  bool is_delta() const { return true; }
+
+  std::optional<LightSample> sample_li(Point3 p, Vec2, LightSampling) const {
+    const Vec3 d = position - p;
+    const float d2 = dot(d, d);
+    if (!(d2 > 0.0f)) return {};
+    LightSample s;
+    s.wi = d * (1.0f / std::sqrt(d2));
+    s.radiance = emission.intensity(-s.wi) * (1.0f / d2);
+    s.pdf = 1.0f;
+    s.is_delta = true;
+    // A normal towards p lets the shadow ray end as close to the light as rounding allows.
+    s.on_light.p = position;
+    s.on_light.ng = s.on_light.ns = -s.wi;
+    if (is_black(s.radiance) || !is_finite(s.radiance)) return {};
+    return s;
+  }
+  float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
+  Spectrum emitted(const SurfacePoint*, Vec3) const { return Spectrum(); }
+  Spectrum power() const { return emission.power(); }
+};
+
+inline ParamDecl intensity_param() {
+  return {.name = "I",
+          .type = ParamType::kSpectrum,
+          .default_value = 1.0,
+          .min = 0,
+          .unit = "W/sr",
+          .doc = "Radiant intensity."};
+}
+inline ParamDecl position_param() {
+  return {.name = "from",
+          .type = ParamType::kPoint3,
+          .default_value = std::vector<double>{0, 0, 0},
+          .unit = "m",
+          .doc = "Where the light is."};
+}
+
+// Where the light's "from" is, or its origin, in the recentred world.
+inline Point3 light_position(const ParamReader& p, const LightContext& context) {
+  if (!p.decl().find("from")) return to_float(context.to_world.point({0, 0, 0}));
+  const std::vector<double> from = p.numbers("from");
+  return to_float(context.to_world.point({from[0], from[1], from[2]}));
+}
+
+}  // namespace etd

@@ -1,0 +1,60 @@
+#include "lights/projection.h"
+
+namespace etd {
+
+namespace {
+
+// Solid angle of the rectangle from (0, 0) to (x, y) in the plane z = 1, signed.
+double solid_angle_to(double x, double y) { return std::atan(x * y / std::sqrt(1.0 + x * x + y * y)); }
+
+}  // namespace
+
+std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const ParamReader& p,
+                                                                           const LightContext& context) {
+  const std::optional<Frame> axes = light_axes(context.to_world, p);
+  std::optional<Image> image = read_light_image(p, context.folder);
+  const double half = std::tan(0.5 * radians(p.number("fov")));
+  const bool flat = !(p.number("fov") < 180.0);
+  if (flat) p.diagnostics().error(p.given("fov")->value_loc, "the field of view must be below 180 degrees");
+  if (!axes || !image || flat) return {};
+  ProjectionIntensity light;
+  light.image = &context.data.images.emplace_back(std::move(*image));
+  light.axes = *axes;
+  const double aspect = static_cast<double>(light.image->width()) / light.image->height();
+  light.half_x = static_cast<float>(half * std::max(1.0, aspect));
+  light.half_y = static_cast<float>(half * std::max(1.0, 1.0 / aspect));
+  light.scale = emission_scale(p, "power", light.power());
+  return PointLight<ProjectionIntensity>{light_position(p, context), light};
+}
+
+Spectrum ProjectionIntensity::texel(int x, int y) const {
+  const auto channel = [&](int c) { return std::max(0.0f, image->texel(x, y, image->channels() == 1 ? 0 : c)); };
+  return Spectrum::rgb(channel(0), channel(1), channel(2)) * scale;
+}
+
+Spectrum ProjectionIntensity::intensity(Vec3 w) const {
+  const Vec3 v = axes.to_local(w);
+  if (!(v.z > 0.0f)) return Spectrum();
+  const float s = 0.5f + 0.5f * v.x / (v.z * half_x), t = 0.5f - 0.5f * v.y / (v.z * half_y);
+  if (!(s >= 0.0f && s < 1.0f && t >= 0.0f && t < 1.0f)) return Spectrum();
+  const int width = image->width(), height = image->height();
+  return texel(std::min(static_cast<int>(s * static_cast<float>(width)), width - 1),
+               std::min(static_cast<int>(t * static_cast<float>(height)), height - 1));
+}
+
+Spectrum ProjectionIntensity::power() const {
+  const auto edge = [](int i, int n, float half) { return half * (2.0 * i / n - 1.0); };
+  double sum[3] = {0, 0, 0};
+  for (int y = 0; y < image->height(); ++y)
+    for (int x = 0; x < image->width(); ++x) {
+      const double x0 = edge(x, image->width(), half_x), x1 = edge(x + 1, image->width(), half_x);
+      const double y0 = edge(y, image->height(), half_y), y1 = edge(y + 1, image->height(), half_y);
+      const double solid_angle =
+          solid_angle_to(x1, y1) - solid_angle_to(x0, y1) - solid_angle_to(x1, y0) + solid_angle_to(x0, y0);
+      const Spectrum value = texel(x, y);
+      for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(value[c]) * solid_angle;
+    }
+  return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
+}
+
+}  // namespace etd

@@ -1,0 +1,40 @@
+// A slide projector without a lens: an image as intensity within a pyramid.
+#pragma once
+
+#include "lights/light_data.h"
+#include "lights/point_lights.h"
+
+namespace etd {
+
+struct ProjectionIntensity {
+  const Image* image = nullptr;
+  Frame axes;                    // of the light, in the world: the image is seen along +z with +x right and +y up
+  float half_x = 1, half_y = 1;  // of the image at z = 1
+  float scale = 1;
+
+  static const ModelDecl& decl() {
+    static const ModelDecl d{Family::kLight,
+                             "projection",
+                             "An image projected from one point along the light's +z.",
+                             {filename_param("Image of the radiant intensity, in W/sr.", true),
+                              {.name = "fov",
+                               .default_value = 90.0,
+                               .min = 0,
+                               .max = 180,
+                               .above_min = true,
+                               .unit = "degrees",
+                               .doc = "Angle across the shorter side of the image; below 180."},
+                              scale_param(),
+                              power_param()}};
+    return d;
+  }
+  static std::optional<PointLight<ProjectionIntensity>> create(const ParamReader& p, const LightContext& context);
+
+  Spectrum intensity(Vec3 w) const;
+  Spectrum power() const;
+
+ private:
+  Spectrum texel(int x, int y) const;
+};
+
+}  // namespace etd
