@@ -64,7 +64,7 @@ class Cli : public ::testing::Test {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(Cli, HelpTeaches) {
-  for (const char* arguments : {"--help", "render --help"}) {
+  for (const char* arguments : {"--help", "render --help", "tonemap --help"}) {
     const Finished done = run(arguments);
     EXPECT_EQ(done.exit_code, 0) << arguments;
     EXPECT_TRUE(has(done.out, "Usage: etendue")) << done.out;
@@ -163,6 +163,33 @@ TEST_F(Cli, BrokenScenesLeaveNoFileAndShowEveryProblem) {
     EXPECT_TRUE(has(done.err, "did you mean \"radius\"?")) << done.err;
     EXPECT_TRUE(has(done.err, "2 errors")) << done.err;
     EXPECT_EQ(folder_.entries(), 1);
+  }
+}
+
+TEST_F(Cli, TonemapsWhatWasRendered) {
+  folder_.write("s.pbrt", kScene);
+  ASSERT_EQ(run("render s.pbrt -o a.exr -o a.png -o a.hdr --exposure 1.5").exit_code, 0);
+  for (const char* arguments :
+       {"a.exr b.png --exposure 1.5", "a.exr c.jpg --operator filmic --white-balance 3200K",
+        "a.exr d.png --layer normal", "a.exr e.png --layer stderr --white-balance auto", "a.hdr f.png --exposure -2"}) {
+    const Finished done = run(std::string("tonemap ") + arguments);
+    EXPECT_EQ(done.exit_code, 0) << arguments << done.err;
+    EXPECT_EQ(done.err, "") << arguments;
+  }
+  EXPECT_EQ(text(folder_.path() / "a.png"), text(folder_.path() / "b.png"));
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"a.exr x.png --layer dirct", "did you mean \"direct\"?"},
+           {"a.hdr x.png --layer direct", "only .exr files have layers"},
+           {"a.exr x.hdr", "ends in .png, .jpg or .jpeg"},
+           {"a.exr absent/x.png", "cannot write absent/x.png"},
+           {"absent.exr x.png", "absent.exr: the file does not exist"},
+           {"a.exr x.png --white-balance 300", "from 1500 to 25000 kelvin"},
+           {"a.exr x.png --white-balance warm", "neither auto nor a temperature"},
+           {"a.exr x.png --operator film", "--operator"}}) {
+    const Finished done = run("tonemap " + arguments);
+    EXPECT_EQ(done.exit_code, 2) << arguments;
+    EXPECT_TRUE(has(done.err, message)) << arguments << "\n" << done.err;
+    EXPECT_FALSE(exists("x.png"));
   }
 }
 

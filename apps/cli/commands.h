@@ -14,6 +14,7 @@ enum ExitCode : int { kOk = 0, kInternalError = 1, kBadInput = 2 };
 using Run = std::function<int()>;
 
 void add_render(CLI::App& app, Run& run);
+void add_tonemap(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_describe(CLI::App& app, Run& run);

@@ -57,19 +57,21 @@ Matrix adaptation(const Vec3d& from, const Vec3d& to) {
 }
 
 struct Tables {
-  Matrix from_xyz;  // to Rec.709
+  Vec3d white;              // D65
+  Matrix to_xyz, from_xyz;  // of Rec.709
   std::array<Matrix, std::size(kDefinitions)> emission, reflectance;
 
   Tables() {
-    const Vec3d white = xyz_of(chromaticity(d65));
-    from_xyz = rgb_to_xyz(kDefinitions[0], white).inverse();
+    white = xyz_of(chromaticity(d65));
+    to_xyz = rgb_to_xyz(kDefinitions[0], white);
+    from_xyz = to_xyz.inverse();
     for (size_t i = 0; i < emission.size(); ++i) {
       // The white of ACES (SMPTE ST 2065-1, table 1); the others have D65.
       const bool aces = static_cast<ColorSpace>(i) == ColorSpace::kAces2065;
       const Vec3d own = aces ? xyz_of({0.32168, 0.33767}) : white;
-      const Matrix to_xyz = rgb_to_xyz(kDefinitions[i], own);
-      emission[i] = from_xyz * to_xyz;
-      reflectance[i] = from_xyz * adaptation(own, white) * to_xyz;
+      const Matrix own_to_xyz = rgb_to_xyz(kDefinitions[i], own);
+      emission[i] = from_xyz * own_to_xyz;
+      reflectance[i] = from_xyz * adaptation(own, white) * own_to_xyz;
     }
   }
 };
@@ -88,6 +90,14 @@ std::optional<ColorSpace> find_color_space(std::string_view name) {
 }
 
 Vec3d xyz_to_rec709(const Vec3d& xyz) { return tables().from_xyz * xyz; }
+
+Vec3d rec709_to_xyz(const Vec3d& rgb) { return tables().to_xyz * rgb; }
+
+std::array<Vec3d, 3> adapt_rec709(const Vec3d& white) {
+  const Tables& t = tables();
+  const Matrix m = t.from_xyz * adaptation(white, t.white * white.y) * t.to_xyz;
+  return {m.rows[0], m.rows[1], m.rows[2]};
+}
 
 Vec3d emission_to_rec709(ColorSpace space, const Vec3d& rgb) {
   return tables().emission[static_cast<size_t>(space)] * rgb;
