@@ -285,7 +285,7 @@ TEST_F(Cli, SignalsStopTheRenderAndWriteTheImage) {
     kill(pid, signal_number);
     const Finished done = finish(pid);
     EXPECT_EQ(done.exit_code, code) << done.err;
-    EXPECT_TRUE(has(done.out, "of 100000000 (interrupted)")) << done.out;
+    EXPECT_TRUE(has(done.out, " spp of 100000000 (interrupted)")) << done.out;
     const LayersResult read = read_layers(folder_.path() / name);
     ASSERT_TRUE(read.image) << read.error;
     EXPECT_GT(read.image->plane("R")[0], 0.0f);

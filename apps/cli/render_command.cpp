@@ -72,8 +72,8 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
 
 void print_summary(const PreparedRender& prepared, const RenderResult& result) {
   const RenderSettings& s = prepared.settings;
-  fmt::print("{}x{}, {} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
-             stop_text(s, result.stopped_by), result.seconds,
+  fmt::print("{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
+             result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
              short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
              error_text(result.error));
 }
