@@ -5,7 +5,7 @@
 
 namespace etd {
 
-inline Sphere ellipsoid(const Transform& t) { return {Affine(t.matrix()), Affine(t.inverse_matrix()), false}; }
+inline Quadric ellipsoid(const Transform& t) { return Quadric(t, false); }
 
 inline GeometryInstance instance_of(uint32_t group, const Transform& t) {
   return {group, Affine(t.matrix()), Affine(t.inverse_matrix())};

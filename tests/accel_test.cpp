@@ -31,8 +31,8 @@ double brute_force(const Geometry& g, uint32_t group, const Ray& r) {
       if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) consider(dot(cross(o - p0, e1), e2) / det);
     }
   }
-  for (uint32_t s = g.groups[group].sphere_begin; s < g.groups[group].sphere_end; ++s)
-    if (const auto found = g.spheres[s].intersect(r.o, r.d, r.t_max)) consider(found->t);
+  for (uint32_t s = g.groups[group].quadric_begin; s < g.groups[group].quadric_end; ++s)
+    if (const auto found = g.quadrics[s].intersect(r.o, r.d, r.t_max)) consider(found->t);
   if (group != 0) return best;
   for (const auto& instance : g.instances) {
     const Ray object{instance.to_object.point(r.o), instance.to_object.vector(r.d), r.t_max, 0};
@@ -62,13 +62,13 @@ Geometry random_geometry(uint64_t seed) {
       g.groups[group].meshes.push_back(static_cast<uint32_t>(g.meshes.size()));
       g.meshes.push_back(std::move(mesh));
     }
-    g.groups[group].sphere_begin = static_cast<uint32_t>(g.spheres.size());
+    g.groups[group].quadric_begin = static_cast<uint32_t>(g.quadrics.size());
     for (int s = 0; s < 6; ++s) {
       const Vec3 at = random_vector(h, 4), axis = random_vector(h, 1), size = random_vector(h, 0.5f);
-      g.spheres.push_back(ellipsoid(Transform::translate(to_double(at)) * Transform::rotate(50, to_double(axis)) *
-                                    Transform::scale(to_double(abs(size) + Vec3{0.1f, 0.1f, 0.1f}))));
+      g.quadrics.push_back(ellipsoid(Transform::translate(to_double(at)) * Transform::rotate(50, to_double(axis)) *
+                                     Transform::scale(to_double(abs(size) + Vec3{0.1f, 0.1f, 0.1f}))));
     }
-    g.groups[group].sphere_end = static_cast<uint32_t>(g.spheres.size());
+    g.groups[group].quadric_end = static_cast<uint32_t>(g.quadrics.size());
   }
   for (uint32_t i = 0; i < 4; ++i)
     g.instances.push_back(instance_of(1 + i % 2, Transform::translate(to_double(random_vector(h, 8))) *

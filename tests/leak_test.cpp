@@ -113,9 +113,9 @@ Geometry box_with_attributes() {
 // A sphere to be inside of.
 Geometry hollow_sphere(const Transform& t) {
   Geometry g;
-  g.spheres.push_back(ellipsoid(t));
-  g.spheres[0].flip_ng = true;
-  g.groups[0].sphere_end = 1;
+  g.quadrics.push_back(ellipsoid(t));
+  g.quadrics[0].flip_ng = true;
+  g.groups[0].quadric_end = 1;
   return g;
 }
 
@@ -135,11 +135,11 @@ void hollow_spheres(uint64_t bounces) {
 Geometry box_with_spheres(double scale, Vec3d at) {
   const Transform t = box_transform(scale, at);
   Geometry g = box(t);
-  g.spheres.push_back(ellipsoid(t * Transform::translate({0.5, -0.4, 0.3}) * Transform::scale({0.4, 0.4, 0.4})));
-  g.spheres.push_back(ellipsoid(t * Transform::translate({-0.4, 0.4, 0.1}) * Transform::rotate(30, {1, 1, 0}) *
-                                Transform::scale({0.4, 0.04, 0.3})));
-  g.spheres.push_back(ellipsoid(t * Transform::translate({-0.5, -0.5, -0.6}) * Transform::scale({1e-3, 1e-3, 1e-3})));
-  g.groups[0].sphere_end = 3;
+  g.quadrics.push_back(ellipsoid(t * Transform::translate({0.5, -0.4, 0.3}) * Transform::scale({0.4, 0.4, 0.4})));
+  g.quadrics.push_back(ellipsoid(t * Transform::translate({-0.4, 0.4, 0.1}) * Transform::rotate(30, {1, 1, 0}) *
+                                 Transform::scale({0.4, 0.04, 0.3})));
+  g.quadrics.push_back(ellipsoid(t * Transform::translate({-0.5, -0.5, -0.6}) * Transform::scale({1e-3, 1e-3, 1e-3})));
+  g.groups[0].quadric_end = 3;
   return g;
 }
 
@@ -186,14 +186,14 @@ TEST(Leak, ConvexBodiesDoNotMeetTheirOwnRays) {
     const Transform t = box_transform(scale, {off, -off, 0.4 * off}) * Transform::scale({1, 1.0 / (1 + c), 0.5});
     Geometry g;
     g.meshes.push_back(box_mesh(t));
-    g.spheres.push_back(ellipsoid(t));
-    (c < 10 ? g.groups[0].meshes.push_back(0) : void(g.groups[0].sphere_end = 1));
+    g.quadrics.push_back(ellipsoid(t));
+    (c < 10 ? g.groups[0].meshes.push_back(0) : void(g.groups[0].quadric_end = 1));
     const Accelerator accel(g);
     uint64_t hits = 0;
     for (uint32_t i = 0; i < 50000; ++i) {
       Vec3 n;
       const SurfacePoint s =
-          c < 10 ? sample_triangle(g.meshes[0], i % 12, uniform(h)) : sample_sphere(g.spheres[0], uniform(h), &n);
+          c < 10 ? sample_triangle(g.meshes[0], i % 12, uniform(h)) : sample_quadric(g.quadrics[0], uniform(h), &n);
       const Vec3 w = cosine_direction(s.ng, h);
       hits += accel.occluded(spawn_ray(s, w));
     }
@@ -234,14 +234,14 @@ TEST(Leak, SpheresAreCrossedOnce) {
   for (const double off : {0.0, 30.0, 3000.0}) {
     const Geometry g = [&] {
       Geometry made;
-      made.spheres.push_back(ellipsoid(box_transform(0.5, {off, off, -off})));
-      made.groups[0].sphere_end = 1;
+      made.quadrics.push_back(ellipsoid(box_transform(0.5, {off, off, -off})));
+      made.groups[0].quadric_end = 1;
       return made;
     }();
     const Accelerator accel(g);
     for (int i = 0; i < 100000; ++i) {
       Vec3 n;
-      const SurfacePoint in = sample_sphere(g.spheres[0], uniform(h), &n);
+      const SurfacePoint in = sample_quadric(g.quadrics[0], uniform(h), &n);
       const Vec3 w = -cosine_direction(in.ng, h);
       Hit hit;
       ASSERT_TRUE(accel.intersect(spawn_ray(in, w), hit));

@@ -88,34 +88,34 @@ TEST(Triangle, SamplesAreUniform) {
 }
 
 TEST(Sphere, PointUvAndDpdu) {
-  const Sphere sphere = ellipsoid(Transform::translate({1, 2, 3}) * Transform::scale({2, 2, 2}));
-  SurfacePoint s = sphere_point(sphere, {0, 1, 0});
+  const Quadric sphere = ellipsoid(Transform::translate({1, 2, 3}) * Transform::scale({2, 2, 2}));
+  SurfacePoint s = quadric_point(sphere, {0, 1, 0});
   expect_near(s.p - Point3{1, 4, 3}, {}, 1e-6f);
   expect_near(s.ng, {0, 1, 0}, 1e-6f);
   EXPECT_NEAR(s.uv.x, 0.25f, 1e-6f);
   EXPECT_NEAR(s.uv.y, 0.5f, 1e-6f);
   expect_near(s.dpdu, {-4 * kPi, 0, 0}, 1e-5f);
-  EXPECT_NEAR(sphere_point(sphere, {0, 0, 1}).uv.y, 1.0f, 1e-6f);
-  EXPECT_NEAR(sphere_point(sphere, {0, 0, -1}).uv.y, 0.0f, 1e-6f);
-  EXPECT_NEAR(sphere_point(sphere, normalize(Vec3{1, -1, 0})).uv.x, 0.875f, 1e-6f);
+  EXPECT_NEAR(quadric_point(sphere, {0, 0, 1}).uv.y, 1.0f, 1e-6f);
+  EXPECT_NEAR(quadric_point(sphere, {0, 0, -1}).uv.y, 0.0f, 1e-6f);
+  EXPECT_NEAR(quadric_point(sphere, normalize(Vec3{1, -1, 0})).uv.x, 0.875f, 1e-6f);
 }
 
 TEST(Sphere, AnEllipsoidsNormalIsThatOfItsQuadric) {
-  Sphere sphere = ellipsoid(Transform::scale({3, 1, -1}));
+  Quadric sphere = ellipsoid(Transform::scale({3, 1, -1}));
   const Vec3 n = normalize(Vec3{1, 1, 0});
-  expect_near(sphere_point(sphere, n).ng, normalize(Vec3{n.x / 3, n.y, 0}), 1e-6f);
+  expect_near(quadric_point(sphere, n).ng, normalize(Vec3{n.x / 3, n.y, 0}), 1e-6f);
   sphere.flip_ng = true;
-  expect_near(sphere_point(sphere, n).ng, -normalize(Vec3{n.x / 3, n.y, 0}), 1e-6f);
+  expect_near(quadric_point(sphere, n).ng, -normalize(Vec3{n.x / 3, n.y, 0}), 1e-6f);
 }
 
 TEST(Sphere, FarTinyAndTouchedSpheres) {
-  const Sphere tiny = ellipsoid(Transform::translate({0, 0, 1e5}) * Transform::scale({1e-3, 1e-3, 1e-3}));
+  const Quadric tiny = ellipsoid(Transform::translate({0, 0, 1e5}) * Transform::scale({1e-3, 1e-3, 1e-3}));
   const auto found = tiny.intersect({0, 0, 0}, {0, 0, 1}, kInfinity);
   ASSERT_TRUE(found);
-  expect_near(found->n, {0, 0, -1}, 1e-5f);
+  expect_near(found->q, {0, 0, -1}, 1e-5f);
   EXPECT_FALSE(tiny.intersect({0.0011f, 0, 0}, {0, 0, 1}, kInfinity));
   EXPECT_TRUE(tiny.intersect({0.0009f, 0, 0}, {0, 0, 1}, kInfinity));
-  const Sphere unit = ellipsoid(Transform());
+  const Quadric unit = ellipsoid(Transform());
   EXPECT_FALSE(unit.intersect({0, 0, 1}, {0, 0, 2}, kInfinity));         // on the surface, leaving
   EXPECT_EQ(unit.intersect({0, 0, 1}, {0, 0, -2}, kInfinity)->t, 1.0f);  // on it, crossing
   EXPECT_EQ(unit.intersect({0, 0, 0.5f}, {0, 0, 0.25f}, kInfinity)->t, 2.0f);
@@ -126,19 +126,20 @@ TEST(Sphere, FarTinyAndTouchedSpheres) {
 TEST(Sphere, AreaIsTheIntegralOfItsStretch) {
   const Vec3d axes[] = {{2, 2, 2}, {3, 2, 1}, {1, 1, 0.5}, {1, 2, 2}, {1, 1.0001, 1}, {5, 0.5, 0.6}, {1, 1, 0.02}};
   for (const Vec3d& a : axes) {
-    const Sphere s = ellipsoid(generic_rotation() * Transform::scale(a) * Transform::rotate(20, {1, 2, 3}));
+    const Quadric s = ellipsoid(generic_rotation() * Transform::scale(a) * Transform::rotate(20, {1, 2, 3}));
     double sum = 0;
     constexpr int kZ = 1000, kPhi = 200;
     for (int i = 0; i < kZ; ++i)
-      for (int j = 0; j < kPhi; ++j) sum += sphere_area_stretch(s, sample_sphere_uniform({cell(i, kZ), cell(j, kPhi)}));
+      for (int j = 0; j < kPhi; ++j)
+        sum += quadric_area_stretch(s, sample_sphere_uniform({cell(i, kZ), cell(j, kPhi)}));
     const double area = sum * 4.0 * M_PI / (kZ * kPhi);
-    EXPECT_NEAR(sphere_area(s) / area, 1.0, 2e-4) << a.x << ' ' << a.y << ' ' << a.z;
+    EXPECT_NEAR(quadric_area(s) / area, 1.0, 2e-4) << a.x << ' ' << a.y << ' ' << a.z;
     Vec3 n;
-    sample_sphere(s, {0.3f, 0.8f}, &n);
-    EXPECT_NEAR(sphere_pdf_area(s, n) * 4 * kPi * sphere_area_stretch(s, n), 1.0f, 1e-5f);
+    sample_quadric(s, {0.3f, 0.8f}, &n);
+    EXPECT_NEAR(quadric_pdf_area(s, n) * 4 * kPi * quadric_area_stretch(s, n), 1.0f, 1e-5f);
   }
-  EXPECT_NEAR(sphere_area(ellipsoid(Transform::scale({2, 2, 2}))), 16 * kPi, 1e-4f);
-  EXPECT_NEAR(sphere_area(ellipsoid(Transform::scale({1, 1, 1e-4}))), 2 * kPi, 1e-4f);  // two sides of a disk
+  EXPECT_NEAR(quadric_area(ellipsoid(Transform::scale({2, 2, 2}))), 16 * kPi, 1e-4f);
+  EXPECT_NEAR(quadric_area(ellipsoid(Transform::scale({1, 1, 1e-4}))), 2 * kPi, 1e-4f);  // two sides of a disk
 }
 
 TEST(Surface, InstancesAreWhatFlatteningWouldGive) {

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "shapes/mesh.h"
-#include "shapes/sphere.h"
+#include "shapes/quadric.h"
 
 namespace etd {
 
 struct GeometryGroup {
-  std::vector<uint32_t> meshes;               // indices into Geometry::meshes
-  uint32_t sphere_begin = 0, sphere_end = 0;  // range of Geometry::spheres
+  std::vector<uint32_t> meshes;                 // indices into Geometry::meshes
+  uint32_t quadric_begin = 0, quadric_end = 0;  // range of Geometry::quadrics
 };
 
 struct GeometryInstance {
@@ -21,7 +21,7 @@ struct GeometryInstance {
 
 struct Geometry {
   std::vector<Mesh> meshes;
-  std::vector<Sphere> spheres;
+  std::vector<Quadric> quadrics;
   std::vector<GeometryGroup> groups = {{}};
   std::vector<GeometryInstance> instances;
 };

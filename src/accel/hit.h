@@ -6,15 +6,15 @@
 namespace etd {
 
 inline constexpr uint32_t kNoId = 0xffffffffu;
-inline constexpr uint32_t kSphereGeometry = 0xfffffffeu;
+inline constexpr uint32_t kQuadricGeometry = 0xfffffffeu;
 
 struct Hit {
   float t = kInfinity;
-  uint32_t geometry = kNoId;   // index of the mesh, or kSphereGeometry
-  uint32_t primitive = kNoId;  // triangle of the mesh, or index of the sphere
+  uint32_t geometry = kNoId;   // index of the mesh, or kQuadricGeometry
+  uint32_t primitive = kNoId;  // triangle of the mesh, or index of the quadric
   uint32_t instance = kNoId;   // kNoId: in the world itself
   float u = 0, v = 0;          // barycentrics b1, b2 of a triangle
-  Vec3 n;                      // of a sphere: the unit object-space direction from its centre to the point
+  Vec3 q;                      // of a quadric: the point of its unit shape
 };
 
 }  // namespace etd

@@ -39,8 +39,8 @@ SurfacePoint to_world(const SurfacePoint& s, const GeometryInstance& instance) {
 
 SurfacePoint surface_point(const Geometry& geometry, const Hit& hit) {
   const GeometryInstance* instance = hit.instance == kNoId ? nullptr : &geometry.instances[hit.instance];
-  if (hit.geometry == kSphereGeometry) {
-    const SurfacePoint s = sphere_point(geometry.spheres[hit.primitive], hit.n);
+  if (hit.geometry == kQuadricGeometry) {
+    const SurfacePoint s = quadric_point(geometry.quadrics[hit.primitive], hit.q);
     return instance ? to_world(s, *instance) : s;
   }
   const Mesh& mesh = geometry.meshes[hit.geometry];

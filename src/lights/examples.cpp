@@ -24,10 +24,10 @@ LightExample triangle(std::string name, bool two_sided, bool flip, const Point3 
   return {std::move(name), Light(light), mesh, nullptr};
 }
 
-LightExample sphere(std::string name, bool two_sided, bool flip, const Transform& t) {
-  auto s = std::make_shared<const Sphere>(Sphere{Affine(t.matrix()), Affine(t.inverse_matrix()), flip});
-  const DiffuseAreaLight<SphereSurface> light{Spectrum::rgb(0.5f, 1.0f, 2.0f), SphereSurface(*s), two_sided};
-  return {std::move(name), Light(light), nullptr, s};
+LightExample quadric(std::string name, bool two_sided, bool flip, const Transform& t, const QuadricPart& part = {}) {
+  auto q = std::make_shared<const Quadric>(t, flip, part);
+  const DiffuseAreaLight<QuadricSurface> light{Spectrum::rgb(0.5f, 1.0f, 2.0f), QuadricSurface(*q), two_sided};
+  return {std::move(name), Light(light), nullptr, q};
 }
 
 // Values from 0 to 4, many of them 0, one of them large.
@@ -83,11 +83,17 @@ std::vector<LightExample> make_examples() {
       triangle("diffuse(triangle, flipped)", false, true, plain),
       triangle("diffuse(triangle, two-sided)", true, false, plain),
       triangle("diffuse(thin triangle, two-sided)", true, false, thin),
-      sphere("diffuse(sphere)", false, false, half),
-      sphere("diffuse(sphere, inward)", false, true, half),
-      sphere("diffuse(sphere, two-sided)", true, false, half),
-      sphere("diffuse(ellipsoid)", false, false, egg),
-      sphere("diffuse(ellipsoid, two-sided)", true, true, egg),
+      quadric("diffuse(sphere)", false, false, half),
+      quadric("diffuse(sphere, inward)", false, true, half),
+      quadric("diffuse(sphere, two-sided)", true, false, half),
+      quadric("diffuse(ellipsoid)", false, false, egg),
+      quadric("diffuse(ellipsoid, two-sided)", true, true, egg),
+      quadric("diffuse(bowl)", false, true, half, {QuadricPart::Kind::kSphere, -0.9f, 0.3f, 4.0f}),
+      quadric("diffuse(stretched bowl, two-sided)", true, false, egg, {QuadricPart::Kind::kSphere, 0.2f, 1.0f}),
+      quadric("diffuse(cylinder)", false, false, half, {QuadricPart::Kind::kCylinder, -1.0f, 1.0f}),
+      quadric("diffuse(gutter, two-sided)", true, false, egg, {QuadricPart::Kind::kCylinder, 0.0f, 1.0f, 2.0f}),
+      quadric("diffuse(disk)", false, false, half, {QuadricPart::Kind::kDisk, 0.0f, 1.0f}),
+      quadric("diffuse(ring, two-sided)", true, true, egg, {QuadricPart::Kind::kDisk, 0.4f, 1.0f, 5.0f}),
       {"infinite(constant)", Light(ConstantInfiniteLight{Spectrum::rgb(0.3f, 1.0f, 4.0f)}), nullptr, nullptr},
       sky("infinite(equal-area image)", 8, 8, LightSampling::kComplete),
       sky("infinite(equal-area image, compensated)", 8, 8, LightSampling::kCompensated),

@@ -13,7 +13,7 @@
 namespace etd {
 
 namespace {
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<SphereSurface>, ConstantInfiniteLight,
+using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
                         ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
                         PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
@@ -23,7 +23,7 @@ Light::Light(const T& light) {
   storage_.store<Lights>(light);
 }
 template Light::Light(const DiffuseAreaLight<TriangleSurface>&);
-template Light::Light(const DiffuseAreaLight<SphereSurface>&);
+template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
 template Light::Light(const ImageInfiniteLight&);
 template Light::Light(const DistantLight&);

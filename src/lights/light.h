@@ -1,4 +1,4 @@
-// The family of lights. A light on a surface is one triangle or one sphere; an infinite light surrounds the scene; a
+// The family of lights. A light on a surface is one triangle or one quadric; an infinite light surrounds the scene; a
 // delta light sends what it sends from a single point or direction, so that only sampling the light finds it.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The surfaces that area lights can sit on: what an area light needs of its shape.
 #pragma once
 
-#include "shapes/sphere.h"
+#include "shapes/quadric.h"
 #include "shapes/triangle.h"
 
 namespace etd {
@@ -21,21 +21,18 @@ struct TriangleSurface {
   float pdf_area(Point3) const { return 1.0f / total_area; }
 };
 
-struct SphereSurface {
-  const Sphere* sphere = nullptr;
+struct QuadricSurface {
+  const Quadric* quadric = nullptr;
 
-  explicit SphereSurface(const Sphere& s) : sphere(&s) {}
-  float area() const { return sphere_area(*sphere); }
+  explicit QuadricSurface(const Quadric& q) : quadric(&q) {}
+  float area() const { return quadric_area(*quadric); }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
-    Vec3 n;
-    const SurfacePoint s = sample_sphere(*sphere, u, &n);
-    pdf_area = sphere_pdf_area(*sphere, n);
+    Vec3 q;
+    const SurfacePoint s = sample_quadric(*quadric, u, &q);
+    pdf_area = quadric_pdf_area(*quadric, q);
     return s;
   }
-  float pdf_area(Point3 p) const {
-    const Point3 q = sphere->to_object.point(p);
-    return sphere_pdf_area(*sphere, normalize(Vec3{q.x, q.y, q.z}));
-  }
+  float pdf_area(Point3 p) const { return quadric_pdf_area(*quadric, quadric->unit_point(p)); }
 };
 
 }  // namespace etd

@@ -109,7 +109,7 @@ class GeometryCompiler {
       for (const ShapeDesc& s : o.shapes) load_one(s);
   }
 
-  // Corners of the shape in its space: mesh vertices, or those of the box around a sphere (exact for its faces).
+  // Corners of the shape in its space: mesh vertices, or those of the box around a quadric.
   void extend(Bounds3& bounds, const PlacedShape& placed) const {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
@@ -117,13 +117,10 @@ class GeometryCompiler {
       for (const Point3d& p : it->second.mesh->positions) bounds.extend(placed.to_space.point(p));
       return;
     }
-    const Point3d c = placed.to_space.point({0, 0, 0});
-    const Mat4& m = placed.to_space.matrix();
-    Vec3d half;
-    for (size_t i = 0; i < 3; ++i)
-      half[static_cast<int>(i)] = it->second.sphere_radius * length(Vec3d{m.m[i][0], m.m[i][1], m.m[i][2]});
-    bounds.extend(c + half);
-    bounds.extend(c - half);
+    const QuadricShape& quadric = *it->second.quadric;
+    const Bounds3 box = quadric_bounds(quadric.part, placed.to_space * quadric.unit_to_object);
+    bounds.extend(box.lo);
+    bounds.extend(box.hi);
   }
 
   Bounds3 world_bounds() const {
@@ -146,7 +143,7 @@ class GeometryCompiler {
     size_t count = world_.size();
     for (const auto& [object, shapes] : objects_) count += shapes.size();
     scene_.geometry.meshes.reserve(count);
-    scene_.geometry.spheres.reserve(count);
+    scene_.geometry.quadrics.reserve(count);
   }
 
   void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group) {
@@ -161,17 +158,16 @@ class GeometryCompiler {
       scene_.mesh_bindings.push_back(binding);
       scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
     } else {
-      const double r = it->second.sphere_radius;
-      const Transform t = to_space * Transform::scale({r, r, r});
-      scene_.geometry.spheres.push_back(
-          {Affine(t.matrix()), Affine(t.inverse_matrix()), placed.shape->reverse_orientation});
-      scene_.sphere_bindings.push_back(binding);
-      ++group.sphere_end;
+      const QuadricShape& quadric = *it->second.quadric;
+      scene_.geometry.quadrics.emplace_back(to_space * quadric.unit_to_object, placed.shape->reverse_orientation,
+                                            quadric.part);
+      scene_.quadric_bindings.push_back(binding);
+      ++group.quadric_end;
     }
     if (&group == &scene_.geometry.groups[0] && placed.shape->area_light >= 0)
       emitters_.push_back({placed.shape, it->second.mesh.has_value(),
                            static_cast<uint32_t>(it->second.mesh ? scene_.geometry.meshes.size() - 1
-                                                                 : scene_.geometry.spheres.size() - 1)});
+                                                                 : scene_.geometry.quadrics.size() - 1)});
   }
 
   Mesh make_mesh(const MeshData& data, const Transform& t, bool reverse) const {
@@ -201,7 +197,7 @@ class GeometryCompiler {
       const Point3d c = local.empty() ? Point3d{} : local.center();
       origin_of[object] = {c.x, c.y, c.z};
       GeometryGroup group;
-      group.sphere_begin = group.sphere_end = static_cast<uint32_t>(scene_.geometry.spheres.size());
+      group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const size_t before = scene_.summary.triangles;
       for (const PlacedShape& s : shapes) add(s, origin_of[object], group);
       triangles_of[object] = scene_.summary.triangles - before;
@@ -219,7 +215,7 @@ class GeometryCompiler {
   struct Emitter {
     const ShapeDesc* shape;
     bool is_mesh;
-    uint32_t index;  // of the mesh or sphere
+    uint32_t index;  // of the mesh or quadric
   };
 
   void add_lights() {
@@ -228,7 +224,7 @@ class GeometryCompiler {
       const ParamReader p(diffuse_area_decl(), use, diagnostics_);
       const Spectrum radiance = emission_value(p, "L") * static_cast<float>(p.number("scale"));
       const bool two_sided = p.boolean("twosided");
-      SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.sphere_bindings[e.index];
+      SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.quadric_bindings[e.index];
       binding.first_light = static_cast<uint32_t>(scene_.lights.size());
       ++scene_.summary.lights[use.model + " area light"];
       if (e.is_mesh) {
@@ -237,8 +233,8 @@ class GeometryCompiler {
           scene_.lights.push_back(
               Light(DiffuseAreaLight<TriangleSurface>{radiance, TriangleSurface(mesh, t), two_sided}));
       } else {
-        const Sphere& sphere = scene_.geometry.spheres[e.index];
-        scene_.lights.push_back(Light(DiffuseAreaLight<SphereSurface>{radiance, SphereSurface(sphere), two_sided}));
+        scene_.lights.push_back(Light(
+            DiffuseAreaLight<QuadricSurface>{radiance, QuadricSurface(scene_.geometry.quadrics[e.index]), two_sided}));
       }
     }
   }

@@ -3,12 +3,12 @@
 namespace etd {
 
 SurfaceHit Scene::surface(const Hit& hit) const {
-  const bool on_sphere = hit.geometry == kSphereGeometry;
-  const SurfaceBinding& binding = on_sphere ? sphere_bindings[hit.primitive] : mesh_bindings[hit.geometry];
+  const bool on_quadric = hit.geometry == kQuadricGeometry;
+  const SurfaceBinding& binding = on_quadric ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
   SurfaceHit s;
   s.point = surface_point(geometry, hit);
   s.material = &materials[binding.material];
-  if (binding.first_light != kNoId) s.light = binding.first_light + (on_sphere ? 0 : hit.primitive);
+  if (binding.first_light != kNoId) s.light = binding.first_light + (on_quadric ? 0 : hit.primitive);
   return s;
 }
 
@@ -19,7 +19,7 @@ Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
 }
 
 size_t Scene::geometry_bytes() const {
-  size_t sum = geometry.spheres.size() * sizeof(Sphere) + geometry.instances.size() * sizeof(GeometryInstance);
+  size_t sum = geometry.quadrics.size() * sizeof(Quadric) + geometry.instances.size() * sizeof(GeometryInstance);
   for (const Mesh& mesh : geometry.meshes) sum += mesh.bytes();
   return sum;
 }

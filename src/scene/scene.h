@@ -17,10 +17,10 @@
 
 namespace etd {
 
-// What a mesh or sphere is made of.
+// What a mesh or quadric is made of.
 struct SurfaceBinding {
   uint32_t material = 0;
-  // Light of the sphere or of the mesh's first triangle (the others follow); kNoId: does not emit.
+  // Light of the quadric or of the mesh's first triangle (the others follow); kNoId: does not emit.
   uint32_t first_light = kNoId;
 };
 
@@ -55,7 +55,7 @@ class Scene {
   size_t geometry_bytes() const;
 
   Geometry geometry;
-  std::vector<SurfaceBinding> mesh_bindings, sphere_bindings;  // one per mesh and sphere of `geometry`
+  std::vector<SurfaceBinding> mesh_bindings, quadric_bindings;  // one per mesh and quadric of `geometry`
   std::vector<Material> materials;
   TextureTable textures;
   std::vector<Light> lights;

@@ -1,4 +1,4 @@
-// The family of shapes as scenes name them: each turns its parameters into a mesh or a sphere.
+// The family of shapes as scenes name them: each turns its parameters into a mesh or a quadric.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,14 @@
 
 #include "io/mesh.h"
 #include "params/declaration.h"
+#include "shapes/quadric_shapes.h"
 
 namespace etd {
 
-// What a shape is before its transform.
+// What a shape is before its transform: one of these.
 struct ShapeGeometry {
-  std::optional<MeshData> mesh;  // or
-  double sphere_radius = 0;      // a sphere around the origin
+  std::optional<MeshData> mesh;
+  std::optional<QuadricShape> quadric;
 };
 
 std::span<const ModelDecl* const> shape_models();

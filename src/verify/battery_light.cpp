@@ -228,9 +228,9 @@ LightModel light_model(const LightExample& example) {
     m.geometry.meshes.push_back(*example.mesh);
     m.geometry.groups[0].meshes.push_back(0);
   }
-  if (example.sphere) {
-    m.geometry.spheres.push_back(*example.sphere);
-    m.geometry.groups[0].sphere_end = 1;
+  if (example.quadric) {
+    m.geometry.quadrics.push_back(*example.quadric);
+    m.geometry.groups[0].quadric_end = 1;
   }
   m.power = light.power();
   m.infinite = light.is_infinite();

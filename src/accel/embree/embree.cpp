@@ -1,6 +1,6 @@
 // The Accelerator over Embree 3.13. Everything that knows Embree is in this file.
 //
-// One scene per used group: mesh i of the group has geometry id i, all its spheres together the next id; the world's
+// One scene per used group: mesh i of the group has geometry id i, all its quadrics together the next id; the world's
 // scene holds instance j at the id after those plus j. Scenes are robust (watertight along shared edges) and built at
 // medium quality, whose parallel builder gives the same tree for any number of threads.
 #include <embree3/rtcore.h>
@@ -16,49 +16,48 @@
 namespace etd {
 namespace {
 
-// What the sphere callbacks of one group need.
-struct SphereRange {
-  const Sphere* spheres = nullptr;  // Geometry::spheres
-  uint32_t begin = 0;               // of the group
+// What the callbacks for the quadrics of one group need.
+struct QuadricRange {
+  const Quadric* quadrics = nullptr;  // Geometry::quadrics
+  uint32_t begin = 0;                 // of the group
 };
 
-// Bounds of an ellipsoid: the half extent along an axis is the norm of that row of its map. Rounded outwards by more
-// than the map and its inverse can disagree.
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& range = *static_cast<const SphereRange*>(args->geometryUserPtr);
-  const Affine& m = range.spheres[range.begin + args->primID].to_world;
-  float lower[3], upper[3];
+// Rounded outwards by more than the map and its inverse can disagree and than an edge is met beyond its place.
+void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& range = *static_cast<const QuadricRange*>(args->geometryUserPtr);
+  const Bounds3 box = range.quadrics[range.begin + args->primID].bounds();
+  Point3 lower = to_float(box.lo), upper = to_float(box.hi);
   for (int i = 0; i < 3; ++i) {
-    const float half = length(Vec3{m.x[i], m.y[i], m.z[i]});
-    const float slack = 0x1p-20f * (half + std::abs(m.t[i]));
-    lower[i] = m.t[i] - half - slack;
-    upper[i] = m.t[i] + half + slack;
+    const float slack = 0x1p-20f * (upper[i] - lower[i] + std::max(std::abs(lower[i]), std::abs(upper[i])));
+    lower[i] -= slack;
+    upper[i] += slack;
   }
-  *args->bounds_o = {lower[0], lower[1], lower[2], 0.0f, upper[0], upper[1], upper[2], 0.0f};
+  *args->bounds_o = {lower.x, lower.y, lower.z, 0.0f, upper.x, upper.y, upper.z, 0.0f};
 }
 
-std::optional<Sphere::Intersection> intersect_sphere(const void* range_pointer, uint32_t primitive, const RTCRay& ray) {
-  const auto& range = *static_cast<const SphereRange*>(range_pointer);
-  const Sphere& sphere = range.spheres[range.begin + primitive];
-  return sphere.intersect({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, next_up(ray.tfar));
+std::optional<Quadric::Intersection> intersect_quadric(const void* range_pointer, uint32_t primitive,
+                                                       const RTCRay& ray) {
+  const auto& range = *static_cast<const QuadricRange*>(range_pointer);
+  const Quadric& quadric = range.quadrics[range.begin + primitive];
+  return quadric.intersect({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, next_up(ray.tfar));
 }
 
-// The unit-sphere point travels to Accelerator::intersect in the place of Embree's normal. Rays come one at a time
+// The unit-shape point travels to Accelerator::intersect in the place of Embree's normal. Rays come one at a time
 // (N=1).
-void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto found = intersect_sphere(args->geometryUserPtr, args->primID, query.ray);
+  const auto found = intersect_quadric(args->geometryUserPtr, args->primID, query.ray);
   if (!found) return;
-  const Vec3 n = found->n;
+  const Vec3 q = found->q;
   query.ray.tfar = found->t;
-  query.hit = {n.x, n.y, n.z, 0.0f, 0.0f, args->primID, args->geomID, {args->context->instID[0]}};
+  query.hit = {q.x, q.y, q.z, 0.0f, 0.0f, args->primID, args->geomID, {args->context->instID[0]}};
 }
 
-void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
+void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (intersect_sphere(args->geometryUserPtr, args->primID, ray)) ray.tfar = -kInfinity;
+  if (intersect_quadric(args->geometryUserPtr, args->primID, ray)) ray.tfar = -kInfinity;
 }
 
 // The smallest distance Embree may report: it tests tnear <= t, we promise 0 < t, and work items flush denormals.
@@ -73,9 +72,9 @@ RTCRay to_embree(const Ray& r) {
 struct Accelerator::Impl {
   const Geometry& geometry;
   RTCDevice device = nullptr;
-  std::vector<RTCScene> scenes;     // by group; null where nothing uses it or it is empty
-  std::vector<SphereRange> ranges;  // by group
-  uint32_t first_instance = 0;      // geometry id of instance 0
+  std::vector<RTCScene> scenes;      // by group; null where nothing uses it or it is empty
+  std::vector<QuadricRange> ranges;  // by group
+  uint32_t first_instance = 0;       // geometry id of instance 0
   std::atomic<int64_t> bytes{0};
   std::mutex error_mutex;  // builders report from their own threads
   std::string error;
@@ -91,7 +90,7 @@ struct Accelerator::Impl {
   void build();
   RTCScene new_scene(uint32_t group);
   void attach_mesh(RTCScene scene, uint32_t id, const Mesh& mesh);
-  void attach_spheres(RTCScene scene, uint32_t id, uint32_t group);
+  void attach_quadrics(RTCScene scene, uint32_t id, uint32_t group);
   void attach_instance(uint32_t index);
   bool is_empty(const GeometryGroup& group) const;
   void check() const {
@@ -150,21 +149,21 @@ void Accelerator::Impl::attach_mesh(RTCScene scene, uint32_t id, const Mesh& mes
   attach(scene, shape, id);
 }
 
-void Accelerator::Impl::attach_spheres(RTCScene scene, uint32_t id, uint32_t group) {
+void Accelerator::Impl::attach_quadrics(RTCScene scene, uint32_t id, uint32_t group) {
   const GeometryGroup& g = geometry.groups[group];
-  if (g.sphere_begin == g.sphere_end) return;
-  ranges[group] = {geometry.spheres.data(), g.sphere_begin};
+  if (g.quadric_begin == g.quadric_end) return;
+  ranges[group] = {geometry.quadrics.data(), g.quadric_begin};
   RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   check();
-  rtcSetGeometryUserPrimitiveCount(shape, g.sphere_end - g.sphere_begin);
+  rtcSetGeometryUserPrimitiveCount(shape, g.quadric_end - g.quadric_begin);
   rtcSetGeometryUserData(shape, &ranges[group]);
-  rtcSetGeometryBoundsFunction(shape, sphere_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(shape, sphere_intersect);
-  rtcSetGeometryOccludedFunction(shape, sphere_occluded);
+  rtcSetGeometryBoundsFunction(shape, quadric_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(shape, quadric_intersect);
+  rtcSetGeometryOccludedFunction(shape, quadric_occluded);
   attach(scene, shape, id);
 }
 
-// A scene with the meshes and spheres of a group, not yet committed.
+// A scene with the meshes and quadrics of a group, not yet committed.
 RTCScene Accelerator::Impl::new_scene(uint32_t group) {
   const GeometryGroup& g = geometry.groups[group];
   RTCScene scene = scenes[group] = rtcNewScene(device);
@@ -172,14 +171,14 @@ RTCScene Accelerator::Impl::new_scene(uint32_t group) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   for (uint32_t i = 0; i < g.meshes.size(); ++i) attach_mesh(scene, i, geometry.meshes[g.meshes[i]]);
-  attach_spheres(scene, static_cast<uint32_t>(g.meshes.size()), group);
+  attach_quadrics(scene, static_cast<uint32_t>(g.meshes.size()), group);
   return scene;
 }
 
 bool Accelerator::Impl::is_empty(const GeometryGroup& group) const {
   for (uint32_t mesh : group.meshes)
     if (!geometry.meshes[mesh].triangles.empty()) return false;
-  return group.sphere_begin == group.sphere_end;
+  return group.quadric_begin == group.quadric_end;
 }
 
 void Accelerator::Impl::attach_instance(uint32_t index) {
@@ -233,9 +232,9 @@ bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
     hit.u = h.u;
     hit.v = h.v;
   } else {
-    hit.geometry = kSphereGeometry;
-    hit.primitive = group.sphere_begin + h.primID;
-    hit.n = {h.Ng_x, h.Ng_y, h.Ng_z};
+    hit.geometry = kQuadricGeometry;
+    hit.primitive = group.quadric_begin + h.primID;
+    hit.q = {h.Ng_x, h.Ng_y, h.Ng_z};
   }
   return true;
 }

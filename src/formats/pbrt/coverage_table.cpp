@@ -14,8 +14,6 @@ std::span<const UnsupportedModel> unsupported_models() {
        {{"P", "P"}, {"N", "N"}, {"uv", "uv"}, {"indices", "indices"}}},
       {Family::kShape, "loopsubdiv", "trianglemesh", "its control mesh", {{"P", "P"}, {"indices", "indices"}}},
       {Family::kShape, "curve", "", "no shape"},
-      {Family::kShape, "cylinder", "", "no shape"},
-      {Family::kShape, "disk", "", "no shape"},
 
       {Family::kMaterial,
        "coateddiffuse",
@@ -87,9 +85,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kShape, "trianglemesh", "faceIndices", "*", "only ptex textures read it"},
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
-      {Family::kShape, "sphere", "zmin", "", "the whole sphere"},
-      {Family::kShape, "sphere", "zmax", "", "the whole sphere"},
-      {Family::kShape, "sphere", "phimax", "360", "the whole sphere"},
 
       {Family::kMaterial, "", "displacement", "0", "the surface without bumps"},
       {Family::kMaterial, "", "normalmap", "", "the surface's own normals"},

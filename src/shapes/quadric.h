@@ -1,0 +1,87 @@
+// Spheres, cylinders and disks under an affine map, whole or cut: of any radius, stretched, one curved surface that is
+// met exactly.
+#pragma once
+
+#include <optional>
+
+#include "core/bounds.h"
+#include "core/transform.h"
+#include "shapes/affine.h"
+#include "shapes/surface_point.h"
+
+namespace etd {
+
+// The part of a unit shape that is there, in coordinates of the unit shape:
+//   sphere    x^2 + y^2 + z^2 = 1, lo <= z <= hi
+//   cylinder  x^2 + y^2 = 1, lo <= z <= hi
+//   disk      z = 0, lo <= r <= hi = 1
+// and 0 <= phi <= phi_max, the angle around z counted from x. Outward is away from the origin and the axis; a disk's
+// front is +z.
+struct QuadricPart {
+  enum class Kind : uint8_t { kSphere, kCylinder, kDisk };
+  Kind kind = Kind::kSphere;
+  float lo = -1, hi = 1;
+  float phi_max = 2 * kPi;
+
+  bool is_full_sphere() const { return kind == Kind::kSphere && lo == -1 && hi == 1 && is_full_circle(); }
+  bool is_full_circle() const { return phi_max == 2 * kPi; }
+  float area() const;  // in the unit shape
+};
+
+struct Quadric {
+  Affine to_world;       // from the unit shape to the space in which rays meet it
+  Affine to_object;      // its inverse
+  bool flip_ng = false;  // ReverseOrientation: normals point inward, that of a disk to -z
+  QuadricPart part;
+  // How far beyond its edges the part is met, in unit coordinates: more than rounding of the maps can open a gap to a
+  // neighbour with the same edge.
+  float edge_slack = 0;
+
+  Quadric() = default;
+  Quadric(const Transform& unit_to_world, bool flip, const QuadricPart& which = {});
+
+  struct Intersection {
+    float t;
+    Vec3 q;  // unit-shape point that was hit
+  };
+  // The nearest intersection with 0 < t < t_max along o + t d, all roots tried; robust for far and tiny shapes.
+  std::optional<Intersection> intersect(Point3 o, Vec3 d, float t_max) const;
+
+  Point3 point(Vec3 q) const { return to_world.point({q.x, q.y, q.z}); }
+  // Geometric normal at a unit-shape point, outward unless flipped.
+  Vec3 normal(Vec3 q) const {
+    const Vec3 ng = normalize(to_object.transposed(unit_normal(q)));
+    return flip_ng ? -ng : ng;
+  }
+  // Normal of the unit shape, outward.
+  Vec3 unit_normal(Vec3 q) const {
+    if (part.kind == QuadricPart::Kind::kDisk) return {0, 0, 1};
+    return part.kind == QuadricPart::Kind::kCylinder ? Vec3{q.x, q.y, 0} : q;
+  }
+  // The point of the unit shape that belongs to a point of the surface.
+  Vec3 unit_point(Point3 p) const;
+  // A box around the surface; not tight for cut spheres.
+  Bounds3 bounds() const;
+};
+
+// The same box before the map is rounded to float.
+Bounds3 quadric_bounds(const QuadricPart& part, const Transform& unit_to_space);
+
+// The point of the surface whose unit-shape point is q. Next to an edge q is first moved in, as barycentrics of
+// triangles are, so that an offset origin does not step across a neighbouring wall. uv as pbrt-v4 has them: u = phi /
+// phi_max, v from 0 at lo to 1 at hi, by polar angle on a sphere and by z on a cylinder; on a disk v is 0 at the rim
+// and 1 inside.
+SurfacePoint quadric_point(const Quadric& quadric, Vec3 q);
+
+// How much area of the surface one unit of area of the unit shape covers around q: |det M| |M^-T n|.
+float quadric_area_stretch(const Quadric& quadric, Vec3 q);
+// Area of the surface, for any affine map; relative error 1e-4 at most.
+float quadric_area(const Quadric& quadric);
+// The point for a uniform point of the unit shape's part; its density per area of the surface is
+// quadric_pdf_area(q), q being the unit-shape point returned in *q. Uniform whenever the map keeps shapes similar.
+SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3* q);
+inline float quadric_pdf_area(const Quadric& quadric, Vec3 q) {
+  return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));
+}
+
+}  // namespace etd
