@@ -227,7 +227,7 @@ MediumInterface "" ""
 Camera "perspective" "float lensradius" 0 "float focaldistance" 10 "float shutteropen" 0 "float shutterclose" 1
 Film "rgb" "float iso" 100 "string sensor" "cie1931" "float diagonal" 35 "float whitebalance" 0
 WorldBegin
-Shape "sphere" "float alpha" 1 "float phimax" 360
+Shape "trianglemesh" "integer faceIndices" 1
 Material "dielectric" "float roughness" 0 "bool remaproughness" true)");
   EXPECT_EQ(r.messages(), "");
   EXPECT_TRUE(r.scene.film.params.empty());
@@ -239,7 +239,7 @@ TEST(PbrtReader, UnsupportedModelsAreReplacedWhenAllowed) {
   const Reading r(R"(WorldBegin
 Material "coatedconductor" "float conductor.roughness" 0.2 "float thickness" 0.1
 Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]
-Shape "disk"
+Shape "curve"
 Texture "m" "spectrum" "marble" "integer octaves" 4)",
                   true);
   EXPECT_EQ(r.diagnostics.error_count(), 0);
