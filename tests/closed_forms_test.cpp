@@ -103,7 +103,8 @@ TEST_P(StatisticalClosedForms, GiveTheAnswer) {
 }
 
 // The false alarms of the test above, counted: p-values of right answers are uniform, whatever scene, mode and sampler.
-// One answer of each case, because those of one film depend on each other.
+// One answer of each case, because those of one film depend on each other. Measured once over 12600 tests: chi-square
+// 20.4 with 19 degrees of freedom, 10 p-values below 0.001.
 TEST(SlowClosedForms, PValuesOfRightAnswersAreUniform) {
   constexpr size_t kBins = 20;
   constexpr uint64_t kSeeds = 100;
@@ -112,8 +113,8 @@ TEST(SlowClosedForms, PValuesOfRightAnswersAreUniform) {
   for (const Case& c : cases()) {
     const SceneAnswer& answer = c.scene->answers.front();
     for (uint64_t i = 0; i < kSeeds; ++i) {
-      const RunningStats stats = measure(render_case(c, ++seed, std::max(c.spp / 16, kReplicates)), answer);
-      if (stats.variance_of_mean() < sqr(answer.value * kRounding)) break;  // nothing random about this case
+      const RunningStats stats = measure(render_case(c, ++seed, std::max(c.spp / 32, kReplicates)), answer);
+      if (stats.variance_of_mean() <= sqr(answer.value * kRounding)) break;  // nothing random about this case
       const double p = t_test(stats, answer.value).p_value;
       ++observed[std::min(static_cast<size_t>(p * kBins), kBins - 1)];
       ++tail[p < 0.001];
