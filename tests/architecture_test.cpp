@@ -36,7 +36,7 @@ const std::map<std::string, int, std::less<>> kFloors = {
 
 // The arrows between two rooms of one floor that are allowed: from the first to the second, never back.
 const std::set<std::pair<std::string, std::string>> kSideways = {
-    {"params", "core"}, {"io", "spectrum"}, {"denoise", "metrics"}, {"lab", "verify"}};
+    {"bsdfs", "phase"}, {"params", "core"}, {"io", "spectrum"}, {"denoise", "metrics"}, {"lab", "verify"}};
 
 // Where the headers of an outside library may be included: everything that begins like the first, only under the
 // second.

@@ -55,13 +55,20 @@ Shape "sphere"
 
 INSTANTIATE_TEST_SUITE_P(
     Spheres, MaterialsAgree,
-    testing::Values(Case{"frosted", R"(Material "dielectric" "float roughness" 0.2)", 6144},
-                    Case{"frosted_anisotropic",
-                         R"(Material "dielectric" "float uroughness" 0.05 "float vroughness" 0.3)", 6144},
-                    Case{"paper", R"(Material "diffusetransmission" "rgb transmittance" [ 0.5 0.4 0.3 ])", 2048},
-                    Case{"gold", R"(Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"
+    testing::Values(
+        Case{"frosted", R"(Material "dielectric" "float roughness" 0.2)", 6144},
+        Case{"frosted_anisotropic", R"(Material "dielectric" "float uroughness" 0.05 "float vroughness" 0.3)", 6144},
+        Case{"plastic", R"(Material "coateddiffuse" "rgb reflectance" [ 0.6 0.3 0.2 ])", 2048},
+        Case{"satin_milky", R"(Material "coateddiffuse" "rgb reflectance" [ 0.6 0.3 0.2 ] "float roughness" 0.1
+                                           "rgb albedo" [ 0.8 0.6 0.4 ] "float thickness" 0.5 "float g" 0.3)",
+             2048},
+        Case{"lacquer", R"(Material "coatedconductor" "float interface.roughness" 0.05
+                                       "float conductor.roughness" 0.1)",
+             4096},
+        Case{"paper", R"(Material "diffusetransmission" "rgb transmittance" [ 0.5 0.4 0.3 ])", 2048},
+        Case{"gold", R"(Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"
                                     "float roughness" 0.1)",
-                         2048}),
+             2048}),
     [](const testing::TestParamInfo<Case>& i) { return std::string(i.param.name); });
 
 }  // namespace

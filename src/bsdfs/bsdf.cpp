@@ -5,6 +5,7 @@
 #include "bsdfs/dielectric.h"
 #include "bsdfs/diffuse_transmission.h"
 #include "bsdfs/lambert.h"
+#include "bsdfs/layered.h"
 #include "bsdfs/rough_dielectric.h"
 #include "bsdfs/thin_dielectric.h"
 
@@ -12,7 +13,9 @@ namespace etd {
 
 namespace {
 using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric, RoughDielectric, ThinDielectric,
-                          DiffuseTransmission>;
+                          DiffuseTransmission, Layered<SmoothDielectric, Lambert>, Layered<RoughDielectric, Lambert>,
+                          Layered<SmoothDielectric, SmoothConductor>, Layered<SmoothDielectric, RoughConductor>,
+                          Layered<RoughDielectric, SmoothConductor>, Layered<RoughDielectric, RoughConductor>>;
 }  // namespace
 
 template <class T>
@@ -26,6 +29,12 @@ template Bsdf::Bsdf(const SmoothDielectric&);
 template Bsdf::Bsdf(const RoughDielectric&);
 template Bsdf::Bsdf(const ThinDielectric&);
 template Bsdf::Bsdf(const DiffuseTransmission&);
+template Bsdf::Bsdf(const Layered<SmoothDielectric, Lambert>&);
+template Bsdf::Bsdf(const Layered<RoughDielectric, Lambert>&);
+template Bsdf::Bsdf(const Layered<SmoothDielectric, SmoothConductor>&);
+template Bsdf::Bsdf(const Layered<SmoothDielectric, RoughConductor>&);
+template Bsdf::Bsdf(const Layered<RoughDielectric, SmoothConductor>&);
+template Bsdf::Bsdf(const Layered<RoughDielectric, RoughConductor>&);
 
 Spectrum Bsdf::eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.eval_cos(wo, wi, mode, rng); });

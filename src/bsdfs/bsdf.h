@@ -75,7 +75,7 @@ class Bsdf {
   bool is_delta_only() const { return (lobes() & (kDiffuse | kGlossy)) == 0; }
 
  private:
-  TaggedStorage<80> storage_;
+  TaggedStorage<128> storage_;
 };
 
 }  // namespace etd

@@ -6,6 +6,7 @@
 #include "bsdfs/dielectric.h"
 #include "bsdfs/diffuse_transmission.h"
 #include "bsdfs/lambert.h"
+#include "bsdfs/layered.h"
 #include "bsdfs/rough_dielectric.h"
 #include "bsdfs/thin_dielectric.h"
 
@@ -19,6 +20,34 @@ struct Metal {
   const char* name;
   Spectrum eta, k;
 };
+
+template <class Top, class Bottom>
+void add_layered(std::vector<BsdfExample>& list, const std::string& name, const Top& top, const Bottom& bottom,
+                 const LayerSettings& layer) {
+  list.push_back({"layered(" + name + ")", Bsdf(Layered<Top, Bottom>{top, bottom, layer})});
+}
+
+// Every pair of layers, and the media between them.
+void add_layered(std::vector<BsdfExample>& list) {
+  const LayerSettings clear{Spectrum(0.0f)};
+  LayerSettings milky{Spectrum::rgb(0.9f, 0.6f, 0.3f), 0.5f, 0.4f}, two{Spectrum(0.0f), 0.05f, 0.0f, 3, 2};
+  milky.max_depth = 20;
+  const Lambert paint{Spectrum::rgb(0.8f, 0.5f, 0.2f)}, white{Spectrum(1.0f)};
+  const Spectrum eta = Spectrum::rgb(0.14f, 0.69f, 0.77f), k = Spectrum::rgb(2.3f, 1.73f, 1.67f);  // copper under 1.5
+  const SmoothDielectric varnish{1.5f};
+  const RoughDielectric satin{1.5f, {0.3f, 0.3f}}, brushed{1.33f, {0.6f, 0.3f}};
+  const RoughConductor rough{eta, k, {0.4f, 0.4f}};
+  add_layered(list, "smooth on paint", varnish, paint, clear);
+  add_layered(list, "smooth on white, milky", varnish, white, milky);
+  add_layered(list, "rough on paint", satin, paint, clear);
+  add_layered(list, "rough on white, two samples, depth 3", brushed, white, two);
+  add_layered(list, "rough on paint, milky", satin, paint, milky);
+  add_layered(list, "smooth on mirror", varnish, SmoothConductor{eta, k}, clear);
+  add_layered(list, "smooth on mirror, milky", varnish, SmoothConductor{eta, k}, milky);
+  add_layered(list, "smooth on rough metal", varnish, rough, clear);
+  add_layered(list, "rough on mirror", satin, SmoothConductor{eta, k}, clear);
+  add_layered(list, "rough on rough metal", satin, rough, milky);
+}
 
 std::vector<BsdfExample> make_examples() {
   const Metal copper{"copper", Spectrum::rgb(0.21f, 1.04f, 1.15f), Spectrum::rgb(3.45f, 2.59f, 2.50f)};
@@ -81,6 +110,7 @@ std::vector<BsdfExample> make_examples() {
   sheet("red, green", Spectrum::rgb(0.6f, 0.1f, 0.0f), Spectrum::rgb(0.1f, 0.5f, 0.2f));
   sheet("0, 0.5", Spectrum(0.0f), Spectrum(0.5f));
   sheet("black", Spectrum(0.0f), Spectrum(0.0f));
+  add_layered(list);
   return list;
 }
 

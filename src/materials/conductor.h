@@ -8,6 +8,16 @@
 
 namespace etd {
 
+// The absorption with which a metal of index 1 has this reflectance at normal incidence: k^2 / (4 + k^2).
+inline Spectrum absorption_of_reflectance(const Spectrum& reflectance) {
+  Spectrum k;
+  for (int i = 0; i < Spectrum::kLanes; ++i) {
+    const float r = clamp(reflectance[i], 0.0f, 0.9999f);
+    k.v[i] = 2.0f * std::sqrt(r / (1.0f - r));
+  }
+  return k;
+}
+
 struct ConductorMaterial {
   SpectrumSource eta, k;       // or, when `by_reflectance`,
   SpectrumSource reflectance;  // at normal incidence
@@ -20,9 +30,7 @@ struct ConductorMaterial {
   Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
     Spectrum n(1.0f), kappa;
     if (by_reflectance) {
-      // With eta = 1 the normal reflectance is k^2 / (4 + k^2).
-      const Spectrum r = clamp(textures.eval(reflectance, at), 0.0f, 0.9999f);
-      for (int i = 0; i < Spectrum::kLanes; ++i) kappa.v[i] = 2.0f * std::sqrt(r[i] / (1.0f - r[i]));
+      kappa = absorption_of_reflectance(textures.eval(reflectance, at));
     } else {
       n = textures.eval(eta, at);
       kappa = textures.eval(k, at);

@@ -1,6 +1,7 @@
 // The list of materials and their dispatch. To add one: its header, its name in the lists, its constructor line.
 #include "materials/material.h"
 
+#include "materials/coated.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
@@ -13,7 +14,7 @@ namespace etd {
 
 namespace {
 using Materials = TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
-                           DiffuseTransmissionMaterial, MixMaterial>;
+                           DiffuseTransmissionMaterial, MixMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial>;
 constexpr uint32_t kMix = Materials::index_of<MixMaterial>();
 }  // namespace
 
@@ -27,13 +28,15 @@ template Material::Material(const DielectricMaterial&);
 template Material::Material(const ThinDielectricMaterial&);
 template Material::Material(const DiffuseTransmissionMaterial&);
 template Material::Material(const MixMaterial&);
+template Material::Material(const CoatedDiffuseMaterial&);
+template Material::Material(const CoatedConductorMaterial&);
 
 Bsdf Material::closure(const TexCoord& at, const TextureTable& textures) const {
   return dispatch<Bsdf, Materials>(storage_, [&](const auto& m) { return m.closure(at, textures); });
 }
 
 namespace {
-const MixMaterial* as_mix(const TaggedStorage<160>& storage) {
+const MixMaterial* as_mix(const TaggedStorage<240>& storage) {
   return storage.tag == kMix ? std::launder(reinterpret_cast<const MixMaterial*>(storage.bytes)) : nullptr;
 }
 }  // namespace
@@ -51,13 +54,10 @@ std::span<const uint32_t> Material::children() const {
 }
 
 std::span<const ModelDecl* const> material_models() {
-  static const ModelDecl* const all[] = {&DiffuseMaterial::decl(),
-                                         &ConductorMaterial::decl(),
-                                         &DielectricMaterial::decl(),
-                                         &ThinDielectricMaterial::decl(),
-                                         &DiffuseTransmissionMaterial::decl(),
-                                         &MixMaterial::decl(),
-                                         &interface_decl()};
+  static const ModelDecl* const all[] = {
+      &DiffuseMaterial::decl(),        &ConductorMaterial::decl(),           &DielectricMaterial::decl(),
+      &ThinDielectricMaterial::decl(), &DiffuseTransmissionMaterial::decl(), &MixMaterial::decl(),
+      &CoatedDiffuseMaterial::decl(),  &CoatedConductorMaterial::decl(),     &interface_decl()};
   return all;
 }
 
@@ -75,6 +75,8 @@ std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textu
   if (use.model == "dielectric") return make<DielectricMaterial>(use, textures, diagnostics);
   if (use.model == "thindielectric") return make<ThinDielectricMaterial>(use, textures, diagnostics);
   if (use.model == "diffusetransmission") return make<DiffuseTransmissionMaterial>(use, textures, diagnostics);
+  if (use.model == "coateddiffuse") return make<CoatedDiffuseMaterial>(use, textures, diagnostics);
+  if (use.model == "coatedconductor") return make<CoatedConductorMaterial>(use, textures, diagnostics);
   if (use.model == "mix")
     return Material(MixMaterial::create({MixMaterial::decl(), use, diagnostics}, textures, names));
   return make<DiffuseMaterial>(use, textures, diagnostics);

@@ -26,7 +26,7 @@ class Material {
   std::span<const uint32_t> children() const;
 
  private:
-  TaggedStorage<160> storage_;
+  TaggedStorage<240> storage_;
 };
 
 // Where the named materials of a scene stand in its array; nothing for those that are no surface.

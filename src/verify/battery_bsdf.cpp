@@ -41,9 +41,13 @@ std::vector<CheckResult> check_bsdf(const ScatterModel& model, const BsdfBattery
   std::vector<CheckResult> results;
   CheckResult traits{model.name, "traits agree with lobes", true, 0.0, {}, ""};
   if (model.traits.delta && model.has_smooth()) traits.passed = false, traits.text = "`delta` but has smooth lobes";
-  if (model.traits.stochastic) traits.passed = false, traits.text = "the battery cannot check stochastic closures";
   results.push_back(traits);
   bsdf_checks::check_finite(model, results);
+  if (model.traits.stochastic) {
+    bsdf_checks::check_stochastic(model, options, results);
+    judge(results, options.family_level);
+    return results;
+  }
   bsdf_checks::check_pointwise(model, options.seed, results);
   if (model.has_delta()) bsdf_checks::check_delta(model, results);
   bsdf_checks::check_histograms(model, options, results);

@@ -48,7 +48,7 @@ struct BsdfBatteryOptions {
   double family_level = 1e-5;  // probability of any false alarm among the checks of one model
 };
 
-// All checks that the model's lobes and traits call for, judged. A stochastic model fails: its checks do not exist.
+// All checks that the model's lobes and traits call for, judged.
 std::vector<CheckResult> check_bsdf(const ScatterModel& model, const BsdfBatteryOptions& options);
 
 }  // namespace etd

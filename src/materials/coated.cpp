@@ -1,0 +1,154 @@
+#include "materials/coated.h"
+
+#include "bsdfs/conductor.h"
+#include "bsdfs/dielectric.h"
+#include "bsdfs/lambert.h"
+#include "bsdfs/layered.h"
+#include "bsdfs/rough_dielectric.h"
+#include "bsdfs/roughness.h"
+#include "materials/conductor.h"
+
+namespace etd {
+
+std::vector<ParamDecl> CoatSource::params(const std::string& prefix) {
+  std::vector<ParamDecl> list = RoughnessSource::params(prefix, 0.0, "of the coat");
+  list.push_back({.name = prefix + "thickness",
+                  .type = ParamType::kFloatTexture,
+                  .default_value = 0.01,
+                  .min = 0,
+                  .unit = "mean free paths",
+                  .doc = "Thickness of the coat, whose medium has extinction 1."});
+  list.push_back(clear_index_param(prefix + "eta", "Index of refraction of the coat"));
+  list.push_back({.name = "albedo",
+                  .type = ParamType::kSpectrumTexture,
+                  .default_value = 0.0,
+                  .min = 0,
+                  .max = 1,
+                  .clamp = true,
+                  .doc = "Share that the coat's medium scatters of what it takes out; 0 only absorbs."});
+  list.push_back({.name = "g",
+                  .type = ParamType::kFloatTexture,
+                  .default_value = 0.0,
+                  .min = -1,
+                  .max = 1,
+                  .doc = "Mean cosine of that scattering; positive goes on forwards."});
+  list.push_back({.name = "maxdepth",
+                  .type = ParamType::kInteger,
+                  .default_value = 10,
+                  .min = 1,
+                  .max = 10000,
+                  .doc = "Events between the layers after which light is given up, which darkens a little."});
+  list.push_back({.name = "nsamples",
+                  .type = ParamType::kInteger,
+                  .default_value = 1,
+                  .min = 1,
+                  .max = 10000,
+                  .doc = "Random walks between the layers for one value; more is slower and less noisy."});
+  return list;
+}
+
+CoatSource CoatSource::create(const ParamReader& p, TextureBuilder& b, const std::string& prefix) {
+  CoatSource c;
+  c.roughness = RoughnessSource::create(p, b, prefix);
+  c.thickness = b.number(p, prefix + "thickness");
+  c.g = b.number(p, "g");
+  c.albedo = b.spectrum(p, "albedo");
+  c.eta = clear_index(p, prefix + "eta");
+  c.max_depth = p.integer("maxdepth");
+  c.samples = p.integer("nsamples");
+  return c;
+}
+
+namespace {
+
+// The closure of this bottom under the coat.
+template <class Bottom>
+Bsdf under_coat(const CoatSource& coat, bool remap, const Bottom& bottom, const TexCoord& at,
+                const TextureTable& textures) {
+  const LayerSettings layer{clamp(textures.eval(coat.albedo, at), 0.0f, 1.0f),
+                            std::max(textures.eval(coat.thickness, at), 1e-20f),
+                            clamp(textures.eval(coat.g, at), -0.999f, 0.999f), coat.max_depth, coat.samples};
+  const auto alpha = microfacet_alpha(textures.eval(coat.roughness.u, at), textures.eval(coat.roughness.v, at), remap);
+  if (!alpha || coat.eta == 1.0f)
+    return Bsdf(Layered<SmoothDielectric, Bottom>{SmoothDielectric{coat.eta}, bottom, layer});
+  return Bsdf(Layered<RoughDielectric, Bottom>{RoughDielectric{coat.eta, {alpha->x, alpha->y}}, bottom, layer});
+}
+
+}  // namespace
+
+const ModelDecl& CoatedDiffuseMaterial::decl() {
+  static const ModelDecl d = [] {
+    ModelDecl m{Family::kMaterial,
+                "coateddiffuse",
+                "A diffuse surface under a dielectric coat: plastic, varnish, glazed tiles.",
+                {{.name = "reflectance",
+                  .type = ParamType::kSpectrumTexture,
+                  .default_value = 0.5,
+                  .min = 0,
+                  .max = 1,
+                  .clamp = true,
+                  .doc = "Share of the light that the diffuse surface reflects."}}};
+    return with_params(with_params(m, CoatSource::params("")), {remap_param()});
+  }();
+  return d;
+}
+
+CoatedDiffuseMaterial CoatedDiffuseMaterial::create(const ParamReader& p, TextureBuilder& b) {
+  return {b.spectrum(p, "reflectance"), CoatSource::create(p, b, ""), p.boolean("remaproughness")};
+}
+
+Bsdf CoatedDiffuseMaterial::closure(const TexCoord& at, const TextureTable& textures) const {
+  return under_coat(coat, remap, Lambert{clamp(textures.eval(reflectance, at), 0.0f, 1.0f)}, at, textures);
+}
+
+const ModelDecl& CoatedConductorMaterial::decl() {
+  static const ModelDecl d = [] {
+    const ModelDecl& metal = ConductorMaterial::decl();
+    ModelDecl m{Family::kMaterial, "coatedconductor", "Metal under a dielectric coat: lacquer, car paint.", {}};
+    for (const char* name : {"eta", "k"}) {
+      ParamDecl p = *metal.find(name);
+      p.name = std::string("conductor.") + name;
+      m.params.push_back(p);
+    }
+    m.params.push_back(*metal.find("reflectance"));
+    m = with_params(m, RoughnessSource::params("conductor.", 0.0, "of the metal"));
+    return with_params(with_params(m, CoatSource::params("interface.")), {remap_param()});
+  }();
+  return d;
+}
+
+CoatedConductorMaterial CoatedConductorMaterial::create(const ParamReader& p, TextureBuilder& b) {
+  CoatedConductorMaterial m;
+  m.by_reflectance = p.given("reflectance") != nullptr;
+  if (m.by_reflectance) {
+    for (const char* other : {"conductor.eta", "conductor.k"})
+      if (const Param* given = p.given(other))
+        p.diagnostics().error(given->loc,
+                              "a conductor has either \"reflectance\" or \"conductor.eta\" and \"conductor.k\"",
+                              "leave out one of them");
+    m.reflectance = b.spectrum(p, "reflectance");
+  } else {
+    m.eta = b.spectrum(p, "conductor.eta");
+    m.k = b.spectrum(p, "conductor.k");
+  }
+  m.roughness = RoughnessSource::create(p, b, "conductor.");
+  m.coat = CoatSource::create(p, b, "interface.");
+  m.remap = p.boolean("remaproughness");
+  return m;
+}
+
+Bsdf CoatedConductorMaterial::closure(const TexCoord& at, const TextureTable& textures) const {
+  Spectrum n(1.0f), kappa;
+  if (by_reflectance) {
+    kappa = absorption_of_reflectance(textures.eval(reflectance, at));
+  } else {
+    // The metal's indices are given against the outside; under the coat they are against the coat.
+    n = textures.eval(eta, at) / coat.eta;
+    kappa = textures.eval(k, at) / coat.eta;
+  }
+  const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
+  if (!alpha) return under_coat(coat, remap, SmoothConductor{n, kappa}, at, textures);
+  return under_coat(coat, remap, RoughConductor{n, kappa, {alpha->x, alpha->y}}, at, textures);
+}
+
+}  // namespace etd
