@@ -237,16 +237,16 @@ Material "dielectric" "float roughness" 0 "bool remaproughness" true)");
 
 TEST(PbrtReader, UnsupportedModelsAreReplacedWhenAllowed) {
   const Reading r(R"(WorldBegin
-Material "coatedconductor" "float conductor.roughness" 0.2 "float thickness" 0.1
+Material "hair" "rgb color" [ 0.1 0.2 0.3 ] "float beta_m" 0.1
 Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]
 Shape "curve"
 Texture "m" "spectrum" "marble" "integer octaves" 4)",
                   true);
   EXPECT_EQ(r.diagnostics.error_count(), 0);
   EXPECT_EQ(r.diagnostics.all().size(), 4u);
-  EXPECT_EQ(r.scene.materials[0].use.model, "conductor");
+  EXPECT_EQ(r.scene.materials[0].use.model, "diffuse");
   ASSERT_EQ(r.scene.materials[0].use.params.size(), 1u);
-  EXPECT_EQ(r.scene.materials[0].use.params[0].name, "roughness");
+  EXPECT_EQ(r.scene.materials[0].use.params[0].name, "reflectance");
   ASSERT_EQ(r.scene.shapes.size(), 1u);
   EXPECT_EQ(r.scene.shapes[0].use.model, "trianglemesh");
   EXPECT_EQ(r.scene.shapes[0].use.find("indices")->integers, (std::vector<int32_t>{0, 1, 3, 0, 3, 2}));
