@@ -20,14 +20,15 @@ LightExample triangle(std::string name, bool two_sided, bool flip, const Point3 
   m.triangles = {{0, 1, 2}};
   m.flip_ng = flip;
   auto mesh = std::make_shared<const Mesh>(std::move(m));
-  const DiffuseAreaLight<TriangleSurface> light{Spectrum::rgb(3.0f, 1.0f, 0.2f), TriangleSurface(*mesh, 0), two_sided};
+  const AreaEmission emission{Spectrum::rgb(3.0f, 1.0f, 0.2f), nullptr, two_sided};
+  const DiffuseAreaLight<TriangleSurface> light(emission, TriangleSurface(*mesh, 0));
   return {std::move(name), Light(light), mesh, nullptr};
 }
 
 LightExample quadric(std::string name, bool two_sided, bool flip, const Transform& t, const QuadricPart& part = {}) {
   auto q = std::make_shared<const Quadric>(t, flip, part);
-  const DiffuseAreaLight<QuadricSurface> light{Spectrum::rgb(0.5f, 1.0f, 2.0f), QuadricSurface(*q), two_sided};
-  return {std::move(name), Light(light), nullptr, q};
+  const AreaEmission emission{Spectrum::rgb(0.5f, 1.0f, 2.0f), nullptr, two_sided};
+  return {std::move(name), Light(DiffuseAreaLight<QuadricSurface>(emission, QuadricSurface(*q))), nullptr, q};
 }
 
 // Values from 0 to 4, many of them 0, one of them large.
@@ -72,6 +73,33 @@ LightExample spot(std::string name, float cos_inner, float cos_outer) {
   return {std::move(name), Light(PointLight<SpotIntensity>{{0.3f, 0.1f, 0.9f}, intensity}), nullptr, nullptr};
 }
 
+// A rectangle turned in space, of two triangles, with an image or without.
+LightExample rectangle(std::string name, bool textured, bool two_sided) {
+  auto data = std::make_shared<LightData>();
+  Mesh m;
+  const Frame& f = turned();
+  for (const Vec2 at : {Vec2{-0.7f, -0.4f}, Vec2{0.7f, -0.4f}, Vec2{0.7f, 0.4f}, Vec2{-0.7f, 0.4f}}) {
+    const Vec3 v = f.x * at.x + f.y * at.y;
+    m.positions.push_back({v.x, v.y, v.z});
+    m.uvs.push_back({at.x / 1.4f + 0.5f, at.y / 0.8f + 0.5f});
+  }
+  m.triangles = {{0, 1, 2}, {0, 2, 3}};
+  auto mesh = std::make_shared<const Mesh>(std::move(m));
+  const Image* image = textured ? &data->images.emplace_back(uneven_image(6, 3)) : nullptr;
+  const AreaEmission emission{Spectrum::rgb(1.0f, 2.0f, 0.5f), image, two_sided};
+  const DiffuseAreaLight<RectangleSurface> light(emission, *RectangleSurface::find(*mesh, 0), 400);
+  return {std::move(name), Light(light), mesh, nullptr, data};
+}
+
+LightExample textured_ball() {
+  auto data = std::make_shared<LightData>();
+  const Transform t = Transform::translate({0.1, 0.2, -0.1}) * Transform::scale({0.5, 0.5, 0.5});
+  auto q = std::make_shared<const Quadric>(t, false);
+  const AreaEmission emission{Spectrum(1.5f), &data->images.emplace_back(uneven_image(6, 3)), false};
+  const DiffuseAreaLight<QuadricSurface> light(emission, QuadricSurface(*q), 400);
+  return {"diffuse(sphere, image)", Light(light), nullptr, q, data};
+}
+
 std::vector<LightExample> make_examples() {
   const Transform half = Transform::scale({0.5, 0.5, 0.5});
   const Transform egg =
@@ -83,6 +111,9 @@ std::vector<LightExample> make_examples() {
       triangle("diffuse(triangle, flipped)", false, true, plain),
       triangle("diffuse(triangle, two-sided)", true, false, plain),
       triangle("diffuse(thin triangle, two-sided)", true, false, thin),
+      rectangle("diffuse(rectangle)", false, false),
+      rectangle("diffuse(rectangle, image, two-sided)", true, true),
+      textured_ball(),
       quadric("diffuse(sphere)", false, false, half),
       quadric("diffuse(sphere, inward)", false, true, half),
       quadric("diffuse(sphere, two-sided)", true, false, half),

@@ -12,8 +12,7 @@ struct ImageInfiniteLight {
   float scale = 1;
 
   static std::optional<ImageInfiniteLight> create(const ParamReader& p, const LightContext& context) {
-    if (const Param* radiance = p.given("L"))
-      p.diagnostics().error(radiance->loc, "a light can't have both an L and a file", "give one of them");
+    reject_radiance_beside_file(p);
     const std::optional<Frame> axes = light_axes(context.to_world, p);
     std::optional<EnvironmentMap> map = read_environment(p, context.folder);
     if (!map || !axes) return {};

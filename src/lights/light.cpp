@@ -13,7 +13,8 @@
 namespace etd {
 
 namespace {
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
+using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
+                        DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
                         ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
                         PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
@@ -23,6 +24,7 @@ Light::Light(const T& light) {
   storage_.store<Lights>(light);
 }
 template Light::Light(const DiffuseAreaLight<TriangleSurface>&);
+template Light::Light(const DiffuseAreaLight<RectangleSurface>&);
 template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
 template Light::Light(const ImageInfiniteLight&);

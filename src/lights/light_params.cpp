@@ -17,6 +17,11 @@ float emission_scale(const ParamReader& params, std::string_view target, const S
   return static_cast<float>(scale * wanted / given);
 }
 
+void reject_radiance_beside_file(const ParamReader& params) {
+  if (const Param* radiance = params.given("L"); radiance && params.given("filename"))
+    params.diagnostics().error(radiance->loc, "a light can't have both an L and a file", "give one of them");
+}
+
 std::optional<Vec3d> light_direction(const ParamReader& params) {
   const std::vector<double> from = params.numbers("from"), to = params.numbers("to");
   const Vec3d along{to[0] - from[0], to[1] - from[1], to[2] - from[2]};

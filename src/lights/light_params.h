@@ -36,6 +36,9 @@ inline ParamDecl filename_param(std::string what, bool required) {
 // light's other parameters give of the targeted quantity. A black light that should have power is an error.
 float emission_scale(const ParamReader& params, std::string_view target, const Spectrum& emitted);
 
+// An error when both an "L" and a "filename" say what the light's radiance is.
+void reject_radiance_beside_file(const ParamReader& params);
+
 // The direction from "from" to "to", in the light's own space, not normalised; an error when they coincide.
 std::optional<Vec3d> light_direction(const ParamReader& params);
 

@@ -1,38 +1,108 @@
-// The surfaces that area lights can sit on: what an area light needs of its shape.
+// The surfaces that area lights can sit on: what an area light needs of its shape. Each can be sampled uniformly by
+// area and, from points that see enough of it, uniformly by the solid angle it has there. Which of the two is used
+// depends on the point alone, so that the density of a direction that was found otherwise is known.
 #pragma once
 
+#include <optional>
+
+#include "core/solid_angle.h"
 #include "shapes/quadric.h"
 #include "shapes/triangle.h"
 
 namespace etd {
 
-// One triangle of a mesh that stays in place while the light lives.
-struct TriangleSurface {
-  const Mesh* mesh = nullptr;
-  uint32_t triangle = 0;
-  float total_area = 0;
+// Below this solid angle sampling by area is as good, and the differences of angles are not.
+inline constexpr double kSmallSolidAngle = 1e-5;
 
-  TriangleSurface(const Mesh& m, uint32_t t) : mesh(&m), triangle(t), total_area(triangle_area(m, t)) {}
-  float area() const { return total_area; }
+// One triangle of a mesh that stays in place while the light lives.
+class TriangleSurface {
+ public:
+  TriangleSurface(const Mesh& mesh, uint32_t triangle)
+      : mesh_(&mesh), triangle_(triangle), area_(triangle_area(mesh, triangle)) {}
+
+  float area() const { return area_; }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
-    pdf_area = 1.0f / total_area;
-    return sample_triangle(*mesh, triangle, u);
+    pdf_area = 1.0f / area_;
+    return sample_triangle(*mesh_, triangle_, u);
   }
-  float pdf_area(Point3) const { return 1.0f / total_area; }
+  float pdf_area(Point3) const { return 1.0f / area_; }
+
+  // The surface as p sees it; nothing where sampling by area is to be used.
+  struct View {
+    const TriangleSurface& surface;
+    Point3 p;
+    SphericalTriangle seen;
+    double solid_angle() const { return seen.solid_angle(); }
+    SurfacePoint sample(Vec2 u) const;
+  };
+  std::optional<View> seen_from(Point3 p) const;
+
+ private:
+  const Mesh* mesh_;
+  uint32_t triangle_;
+  float area_;
 };
 
-struct QuadricSurface {
-  const Quadric* quadric = nullptr;
+// Two neighbouring triangles of a mesh that make a rectangle.
+class RectangleSurface {
+ public:
+  // Of the triangles `first` and first + 1, if they do.
+  static std::optional<RectangleSurface> find(const Mesh& mesh, uint32_t first);
 
-  explicit QuadricSurface(const Quadric& q) : quadric(&q) {}
-  float area() const { return quadric_area(*quadric); }
+  float area() const { return area_; }
+  SurfacePoint sample(Vec2 u, float& pdf_area) const {
+    pdf_area = 1.0f / area_;
+    return point(static_cast<double>(u.x), static_cast<double>(u.y));
+  }
+  float pdf_area(Point3) const { return 1.0f / area_; }
+
+  struct View {
+    const RectangleSurface& surface;
+    SphericalRectangle seen;
+    double solid_angle() const { return seen.solid_angle(); }
+    SurfacePoint sample(Vec2 u) const {
+      const Vec2T<double> at = seen.sample(u);
+      return surface.point(at.x, at.y);
+    }
+  };
+  std::optional<View> seen_from(Point3 p) const;
+
+ private:
+  RectangleSurface() = default;
+  // The point that lies the shares x and y along the two edges from the corner.
+  SurfacePoint point(double x, double y) const;
+
+  const Mesh* mesh_ = nullptr;
+  uint32_t first_ = 0;
+  uint32_t corner_ = 0, end_x_ = 0, end_y_ = 0;  // vertices: a corner and its neighbours
+  float area_ = 0;
+};
+
+class QuadricSurface {
+ public:
+  explicit QuadricSurface(const Quadric& quadric);
+
+  float area() const { return quadric_area(*quadric_); }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
     Vec3 q;
-    const SurfacePoint s = sample_quadric(*quadric, u, &q);
-    pdf_area = quadric_pdf_area(*quadric, q);
+    const SurfacePoint s = sample_quadric(*quadric_, u, &q);
+    pdf_area = quadric_pdf_area(*quadric_, q);
     return s;
   }
-  float pdf_area(Point3 p) const { return quadric_pdf_area(*quadric, quadric->unit_point(p)); }
+  float pdf_area(Point3 p) const { return quadric_pdf_area(*quadric_, quadric_->unit_point(p)); }
+
+  struct View {
+    const QuadricSurface& surface;
+    SphericalCap seen;
+    double solid_angle() const { return seen.solid_angle(); }
+    SurfacePoint sample(Vec2 u) const;
+  };
+  // Of a whole ball (no ellipsoid) from outside.
+  std::optional<View> seen_from(Point3 p) const;
+
+ private:
+  const Quadric* quadric_;
+  float ball_radius_;  // 0: it is none
 };
 
 }  // namespace etd

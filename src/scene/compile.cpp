@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scene/compile_geometry.h"
+#include "scene/compile_lights.h"
 #include "scene/registry.h"
 
 namespace etd {
@@ -90,21 +91,6 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
   for (uint32_t i = 0; i < uses.size(); ++i)
     if (visited[i] == 0) reject_cycles(scene, i, uses, visited, diagnostics);
   return material_of;
-}
-
-// The lights that are no surfaces, behind those that are.
-void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
-  const Transform to_recentred = Transform::translate(-scene.origin);
-  for (const LightDesc& desc : description.lights) {
-    check(Family::kLight, desc.use, diagnostics);
-    const auto light =
-        make_light(desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data}, diagnostics);
-    if (!light) continue;
-    if (light->is_infinite() && !light->is_delta())
-      scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
-    scene.lights.push_back(*light);
-    ++scene.summary.lights[desc.use.model];
-  }
 }
 
 }  // namespace

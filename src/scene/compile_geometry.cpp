@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "lights/diffuse_area.h"
+#include "scene/compile_lights.h"
 #include "scene/registry.h"
 #include "shapes/shape.h"
 
@@ -219,23 +219,10 @@ class GeometryCompiler {
   };
 
   void add_lights() {
+    AreaLightCompiler lights(description_.folder, scene_, diagnostics_);
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
-      const ParamReader p(diffuse_area_decl(), use, diagnostics_);
-      const Spectrum radiance = emission_value(p, "L") * static_cast<float>(p.number("scale"));
-      const bool two_sided = p.boolean("twosided");
-      SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.quadric_bindings[e.index];
-      binding.first_light = static_cast<uint32_t>(scene_.lights.size());
-      ++scene_.summary.lights[use.model + " area light"];
-      if (e.is_mesh) {
-        const Mesh& mesh = scene_.geometry.meshes[e.index];
-        for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
-          scene_.lights.push_back(
-              Light(DiffuseAreaLight<TriangleSurface>{radiance, TriangleSurface(mesh, t), two_sided}));
-      } else {
-        scene_.lights.push_back(Light(
-            DiffuseAreaLight<QuadricSurface>{radiance, QuadricSurface(scene_.geometry.quadrics[e.index]), two_sided}));
-      }
+      e.is_mesh ? lights.add_mesh(use, e.index) : lights.add_quadric(use, e.index);
     }
   }
 

@@ -8,7 +8,8 @@ SurfaceHit Scene::surface(const Hit& hit) const {
   SurfaceHit s;
   s.point = surface_point(geometry, hit);
   s.material = &materials[binding.material];
-  if (binding.first_light != kNoId) s.light = binding.first_light + (on_quadric ? 0 : hit.primitive);
+  if (binding.first_light != kNoId)
+    s.light = on_quadric ? binding.first_light : triangle_lights[binding.first_light + hit.primitive];
   return s;
 }
 

@@ -20,7 +20,7 @@ namespace etd {
 // What a mesh or quadric is made of.
 struct SurfaceBinding {
   uint32_t material = 0;
-  // Light of the quadric or of the mesh's first triangle (the others follow); kNoId: does not emit.
+  // The quadric's light, or where the lights of the mesh's triangles start in `triangle_lights`; kNoId: does not emit.
   uint32_t first_light = kNoId;
 };
 
@@ -59,6 +59,7 @@ class Scene {
   std::vector<Material> materials;
   TextureTable textures;
   std::vector<Light> lights;
+  std::vector<uint32_t> triangle_lights;  // of the triangles of emitting meshes, mesh by mesh
   std::vector<uint32_t> infinite_lights;  // those that rays can find
   LightData light_data;
   PowerLightSampler light_sampler;

@@ -80,8 +80,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
 
       {Family::kLight, "infinite", "portal", "", "light from all directions"},
-      {Family::kAreaLight, "diffuse", "filename", "", "the same radiance everywhere"},
-      {Family::kAreaLight, "diffuse", "power", "-1", "the radiance that L and scale give"},
 
       {Family::kCamera, "perspective", "lensradius", "0", "a pinhole camera"},
       {Family::kCamera, "perspective", "focaldistance", "*", "only a lens reads it"},

@@ -1,0 +1,104 @@
+#include "core/solid_angle.h"
+
+namespace etd {
+
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+double clamped(double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); }
+double root(double x) { return std::sqrt(x > 0.0 ? x : 0.0); }
+
+// The unit vector of w's part perpendicular to the unit vector v.
+Vec3d perpendicular(Vec3d w, Vec3d v) { return normalize(w - v * dot(w, v)); }
+
+}  // namespace
+
+SphericalTriangle::SphericalTriangle(Point3d p, const Point3d (&corners)[3])
+    : a_(normalize(corners[0] - p)), b_(normalize(corners[1] - p)), c_(normalize(corners[2] - p)) {
+  // tan(solid angle / 2), robust for small triangles (Van Oosterom and Strackee 1983).
+  const double volume = std::abs(dot(a_, cross(b_, c_)));
+  const double solid_angle = 2.0 * std::atan2(volume, 1.0 + dot(a_, b_) + dot(b_, c_) + dot(c_, a_));
+  const Vec3d ab = cross(a_, b_), ac = cross(a_, c_);
+  const double lengths = length(ab) * length(ac);
+  if (!(lengths > 0.0) || !(solid_angle > 0.0) || !std::isfinite(solid_angle)) return;
+  cos_alpha_ = dot(ab, ac) / lengths;
+  sin_alpha_ = volume / lengths;  // |(a x b) x (a x c)| = |a . (b x c)|
+  if (sin_alpha_ > 0.0) solid_angle_ = solid_angle;
+}
+
+Vec3d SphericalTriangle::sample(Vec2 u) const {
+  // The corner c moves along the arc from a to c until the triangle has the share u.x of its area.
+  const double area = static_cast<double>(u.x) * solid_angle_;
+  const double sin_area = std::sin(area), cos_area = std::cos(area);
+  const double s = sin_area * cos_alpha_ - cos_area * sin_alpha_;  // sin(area - alpha)
+  const double t = cos_area * cos_alpha_ + sin_area * sin_alpha_;  // cos(area - alpha)
+  const double x = t - cos_alpha_, y = s + sin_alpha_ * dot(a_, b_);
+  const double divisor = (y * s + x * t) * sin_alpha_;
+  const double q = divisor != 0.0 ? clamped(((y * t - x * s) * cos_alpha_ - y) / divisor, -1.0, 1.0) : 1.0;
+  const Vec3d moved = a_ * q + perpendicular(c_, a_) * root(1.0 - q * q);
+  // Then a direction along the arc from b to there.
+  const double z = 1.0 - static_cast<double>(u.y) * (1.0 - dot(moved, b_));
+  const Vec3d across = moved - b_ * dot(moved, b_);
+  const double l = length(across);
+  return l > 0.0 ? normalize(b_ * z + across * (root(1.0 - z * z) / l)) : b_;
+}
+
+SphericalRectangle::SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d y)
+    : width_(length(x)), height_(length(y)) {
+  const Vec3d ex = x * (1.0 / width_), ey = y * (1.0 / height_), d = corner - p;
+  x0_ = dot(d, ex), y0_ = dot(d, ey);
+  x1_ = x0_ + width_, y1_ = y0_ + height_;
+  distance_ = std::abs(dot(d, cross(ex, ey)));
+  if (!(distance_ > 0.0)) return;
+  // Normals of the four planes through p and an edge, of which only the component across the rectangle is needed; the
+  // inner angles between them sum up to the solid angle plus 2 pi.
+  const double z2 = distance_ * distance_;
+  const double n0 = -y0_ / std::sqrt(z2 + y0_ * y0_), n1 = x1_ / std::sqrt(z2 + x1_ * x1_);
+  const double n2 = y1_ / std::sqrt(z2 + y1_ * y1_), n3 = -x0_ / std::sqrt(z2 + x0_ * x0_);
+  const double g0 = std::acos(clamped(-n0 * n1, -1.0, 1.0)), g1 = std::acos(clamped(-n1 * n2, -1.0, 1.0));
+  const double g2 = std::acos(clamped(-n2 * n3, -1.0, 1.0)), g3 = std::acos(clamped(-n3 * n0, -1.0, 1.0));
+  b0_ = n0, b1_ = n2, k_ = 2.0 * kPiD - g2 - g3;
+  solid_angle_ = g0 + g1 - k_;
+}
+
+Vec2T<double> SphericalRectangle::sample(Vec2 u) const {
+  // The sine of the angle between the cut through p that has the share u.x of the solid angle beside it and the plane's
+  // normal, by Urena's equations with z0 = -distance.
+  const double au = static_cast<double>(u.x) * solid_angle_ + k_;
+  const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
+  double cu = std::copysign(1.0 / std::sqrt(fu * fu + b0_ * b0_), fu);
+  cu = clamped(cu, -1.0, 1.0);
+  double xu = cu * distance_ / root(1.0 - cu * cu);
+  xu = clamped(xu, x0_, x1_);
+  // Along that cut the solid angle is even in the sine of the elevation.
+  const double d = std::sqrt(xu * xu + distance_ * distance_);
+  const double h0 = y0_ / std::sqrt(d * d + y0_ * y0_), h1 = y1_ / std::sqrt(d * d + y1_ * y1_);
+  const double h = h0 + static_cast<double>(u.y) * (h1 - h0), h2 = h * h;
+  const double yv = h2 < 1.0 - 1e-12 ? clamped(h * d / std::sqrt(1.0 - h2), y0_, y1_) : y1_;
+  return {clamped((xu - x0_) / width_, 0.0, 1.0), clamped((yv - y0_) / height_, 0.0, 1.0)};
+}
+
+std::optional<SphericalCap> SphericalCap::seen_from(Point3d p, Point3d center, double radius) {
+  const Vec3d d = center - p;
+  const double distance = length(d);
+  if (!(distance > radius * (1.0 + 1e-4)) || !std::isfinite(distance)) return {};
+  return SphericalCap{d * (1.0 / distance), distance, sqr(radius / distance)};
+}
+
+double SphericalCap::solid_angle() const { return 2.0 * kPiD * sin2_max / (1.0 + std::sqrt(1.0 - sin2_max)); }
+
+Vec3d SphericalCap::sample_normal(Vec2 u) const {
+  // theta is the angle at p between the axis and the direction, alpha that at the centre between the axis and the point
+  // met: from the triangle of both and p, cos alpha = sin^2 theta / sin max + cos theta sqrt(1 - sin^2 theta / sin^2
+  // max).
+  const double above = static_cast<double>(u.x) * sin2_max / (1.0 + std::sqrt(1.0 - sin2_max));  // 1 - cos theta
+  const double sin2 = above * (2.0 - above), ratio = std::min(1.0, sin2 / sin2_max);
+  const double cos_alpha = clamped(ratio * std::sqrt(sin2_max) + (1.0 - above) * root(1.0 - ratio), -1.0, 1.0);
+  const double sin_alpha = root(1.0 - cos_alpha * cos_alpha), phi = 2.0 * kPiD * static_cast<double>(u.y);
+  const Vec3d helper = std::abs(axis.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d s = perpendicular(helper, axis), t = cross(axis, s);
+  return s * (sin_alpha * std::cos(phi)) + t * (sin_alpha * std::sin(phi)) - axis * cos_alpha;
+}
+
+}  // namespace etd

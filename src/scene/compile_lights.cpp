@@ -1,0 +1,117 @@
+#include "scene/compile_lights.h"
+
+#include "lights/diffuse_area.h"
+#include "scene/registry.h"
+
+namespace etd {
+
+namespace {
+
+// The surfaces of an emitting mesh, and which of them each triangle belongs to: rectangles are counted first.
+struct MeshSurfaces {
+  std::vector<RectangleSurface> rectangles;
+  std::vector<TriangleSurface> triangles;
+  std::vector<uint32_t> of_triangle;
+
+  explicit MeshSurfaces(const Mesh& mesh) {
+    const auto count = static_cast<uint32_t>(mesh.triangles.size());
+    std::vector<bool> in_rectangle;
+    for (uint32_t t = 0; t < count; ++t) {
+      if (const auto r = RectangleSurface::find(mesh, t)) {
+        of_triangle.insert(of_triangle.end(), 2, static_cast<uint32_t>(rectangles.size()));
+        in_rectangle.insert(in_rectangle.end(), 2, true);
+        rectangles.push_back(*r);
+        ++t;
+      } else {
+        of_triangle.push_back(static_cast<uint32_t>(triangles.size()));
+        in_rectangle.push_back(false);
+        triangles.emplace_back(mesh, t);
+      }
+    }
+    for (uint32_t t = 0; t < count; ++t)
+      if (!in_rectangle[t]) of_triangle[t] += static_cast<uint32_t>(rectangles.size());
+  }
+  size_t size() const { return rectangles.size() + triangles.size(); }
+};
+
+template <class Surface>
+std::vector<DiffuseAreaLight<Surface>> lights_on(const std::vector<Surface>& surfaces, const AreaEmission& emission,
+                                                 int points) {
+  std::vector<DiffuseAreaLight<Surface>> lights;
+  for (const Surface& s : surfaces) lights.emplace_back(emission, s, points);
+  return lights;
+}
+
+template <class Surface>
+Spectrum total_power(const std::vector<DiffuseAreaLight<Surface>>& lights) {
+  Spectrum sum;
+  for (const auto& light : lights) sum += light.power();
+  return sum;
+}
+
+// Side of the square of points that see every texel of an image spread over so many surfaces.
+int points_for(const AreaEmission& emission, size_t surfaces) {
+  if (!emission.image) return 1;
+  const double texels = 2.0 * std::max(emission.image->width(), emission.image->height());
+  return static_cast<int>(std::clamp(std::ceil(texels / std::sqrt(static_cast<double>(surfaces))), 8.0, 1024.0));
+}
+
+}  // namespace
+
+AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
+  const ParamReader p(diffuse_area_decl(), use, diagnostics_);
+  AreaEmission e;
+  e.two_sided = p.boolean("twosided");
+  if (!p.given("filename")) {
+    e.radiance = emission_value(p, "L");
+    return e;
+  }
+  const auto [it, is_new] = images_.try_emplace(&use, nullptr);
+  if (is_new) {
+    reject_radiance_beside_file(p);
+    if (auto image = read_light_image(p, folder_))
+      it->second = &scene_.light_data.images.emplace_back(std::move(*image));
+  }
+  e.image = it->second;
+  return e;
+}
+
+void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
+  const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
+  const AreaEmission e = emission(use);
+  auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
+  auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
+  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power",
+                                     total_power(rectangles) + total_power(triangles));
+  const auto first = static_cast<uint32_t>(scene_.lights.size());
+  for (auto& light : rectangles) scene_.lights.push_back(Light(light.scaled(scale)));
+  for (auto& light : triangles) scene_.lights.push_back(Light(light.scaled(scale)));
+  scene_.mesh_bindings[index].first_light = static_cast<uint32_t>(scene_.triangle_lights.size());
+  for (const uint32_t surface : surfaces.of_triangle) scene_.triangle_lights.push_back(first + surface);
+  ++scene_.summary.lights[use.model + " area light"];
+}
+
+void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index) {
+  const AreaEmission e = emission(use);
+  const DiffuseAreaLight<QuadricSurface> light(e, QuadricSurface(scene_.geometry.quadrics[index]), points_for(e, 1));
+  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", light.power());
+  scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
+  scene_.lights.push_back(Light(light.scaled(scale)));
+  ++scene_.summary.lights[use.model + " area light"];
+}
+
+void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
+  const Transform to_recentred = Transform::translate(-scene.origin);
+  for (const LightDesc& desc : description.lights) {
+    if (const ModelDecl* decl = find_model(Family::kLight, desc.use.model)) check_params(*decl, desc.use, diagnostics);
+    const auto light =
+        make_light(desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data}, diagnostics);
+    if (!light) continue;
+    if (light->is_infinite() && !light->is_delta())
+      scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
+    scene.lights.push_back(*light);
+    ++scene.summary.lights[desc.use.model];
+  }
+}
+
+}  // namespace etd

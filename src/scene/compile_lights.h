@@ -1,0 +1,37 @@
+// The part of compile() that makes lights.
+#pragma once
+
+#include <map>
+
+#include "params/diagnostics.h"
+#include "scene/description.h"
+#include "scene/scene.h"
+
+namespace etd {
+
+struct AreaEmission;
+
+// Adds the lights of surfaces to the scene, once their meshes and quadrics are in their final place.
+class AreaLightCompiler {
+ public:
+  AreaLightCompiler(std::filesystem::path folder, Scene& scene, Diagnostics& diagnostics)
+      : folder_(std::move(folder)), scene_(scene), diagnostics_(diagnostics) {}
+
+  // A light for each triangle, or for two that make a rectangle.
+  void add_mesh(const ModelUse& use, uint32_t mesh);
+  void add_quadric(const ModelUse& use, uint32_t quadric);
+
+ private:
+  // Without "scale" and "power".
+  AreaEmission emission(const ModelUse& use);
+
+  std::filesystem::path folder_;
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+  std::map<const ModelUse*, const Image*> images_;  // read once, however many shapes the light is on
+};
+
+// Adds the lights that are no surfaces, behind those that are.
+void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics);
+
+}  // namespace etd
