@@ -16,12 +16,12 @@ class AliasTable {
   explicit AliasTable(std::span<const double> weights);
 
   size_t size() const { return bins_.size(); }
-  // The index for u in [0, 1); only for tables with a positive weight.
-  uint32_t sample(float u) const {
-    const double scaled = static_cast<double>(u) * static_cast<double>(bins_.size());
+  // The index for u in [0, 1); only for tables with a positive weight. A double, because u is spread over all indices:
+  // the 24 bits of a float would leave a few values to each of a million, and none to the faint ones.
+  uint32_t sample(double u) const {
+    const double scaled = u * static_cast<double>(bins_.size());
     const auto bin = std::min(static_cast<size_t>(scaled), bins_.size() - 1);
-    return static_cast<float>(scaled - static_cast<double>(bin)) < bins_[bin].threshold ? static_cast<uint32_t>(bin)
-                                                                                        : bins_[bin].alias;
+    return scaled - static_cast<double>(bin) < bins_[bin].threshold ? static_cast<uint32_t>(bin) : bins_[bin].alias;
   }
   // The probability with which sample() gives the index.
   float probability(uint32_t index) const { return bins_[index].probability; }

@@ -15,11 +15,12 @@ struct Frame {
     return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
 
-  // The frame around unit n whose x axis is the part of `tangent` perpendicular to n; any frame when there is none.
+  // The frame around unit n whose x axis is the part of `tangent` perpendicular to n; any frame when that part is too
+  // small to have kept its direction (below 1/1000: an error of rounding of 1e-4).
   static Frame from_z_tangent(Vec3 n, Vec3 tangent) {
     const Vec3 t = tangent - n * dot(n, tangent);
     const float l2 = dot(t, t);
-    if (!(l2 > 1e-12f * dot(tangent, tangent)) || !std::isfinite(l2)) return from_z(n);
+    if (!(l2 > 1e-6f * dot(tangent, tangent)) || !std::isfinite(l2)) return from_z(n);
     const Vec3 x = t * (1.0f / std::sqrt(l2));
     return {x, cross(n, x), n};
   }

@@ -12,8 +12,10 @@ ETD_FN uint64_t mix_bits(uint64_t v) {
   return v ^ (v >> 31);
 }
 
+// The hash of a pair. Multiples of the golden ratio keep away from each other modulo 2^64, so pairs of small numbers,
+// such as a seed and a replicate, never meet: seeds that differ by less than 2^31 stay at least 2^32 apart.
 ETD_FN uint64_t hash_combine(uint64_t seed, uint64_t value) {
-  return mix_bits(seed ^ (value + 0x9e3779b97f4a7c15ull + (seed << 6) + (seed >> 2)));
+  return mix_bits((seed + 1) * 0x9e3779b97f4a7c15ull + value);
 }
 
 template <class... Rest>

@@ -21,7 +21,8 @@ ETD_FN float sqr(float x) { return x * x; }
 ETD_FN double sqr(double x) { return x * x; }
 ETD_FN float safe_sqrt(float x) { return std::sqrt(x > 0.0f ? x : 0.0f); }
 ETD_FN float lerp(float t, float a, float b) { return (1.0f - t) * a + t * b; }
-ETD_FN float clamp(float x, float lo, float hi) { return x < lo ? lo : (x > hi ? hi : x); }
+// NaN gives lo.
+ETD_FN float clamp(float x, float lo, float hi) { return x > lo ? (x < hi ? x : hi) : lo; }
 ETD_FN double radians(double degrees) { return degrees * (3.14159265358979323846 / 180.0); }
 
 ETD_FN uint32_t float_bits(float f) {

@@ -9,17 +9,21 @@ struct BoxFilter {
   Vec2 r;  // half widths
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{
-        Family::kFilter,
-        "box",
-        "Constant over the pixel: no correlation between pixels.",
-        {{.name = "xradius", .default_value = 0.5, .min = 0, .above_min = true, .unit = "pixels", .doc = "Half width."},
-         {.name = "yradius",
-          .default_value = 0.5,
-          .min = 0,
-          .above_min = true,
-          .unit = "pixels",
-          .doc = "Half height."}}};
+    static const ModelDecl d{Family::kFilter,
+                             "box",
+                             "Constant over the pixel: no correlation between pixels.",
+                             {{.name = "xradius",
+                               .default_value = 0.5,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half width."},
+                              {.name = "yradius",
+                               .default_value = 0.5,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half height."}}};
     return d;
   }
   static BoxFilter create(const ParamReader& p) {

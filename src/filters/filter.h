@@ -10,6 +10,9 @@
 
 namespace etd {
 
+// Range of radii and widths, in pixels: beyond it, sizes and their squares would not all fit a float.
+inline constexpr double kMinFilterSize = 1e-6, kMaxFilterSize = 1e6;
+
 struct FilterSample {
   Vec2 offset;       // from the pixel's centre, in pixels
   float weight = 1;  // filter / (its integral x density); mean 1
@@ -28,7 +31,7 @@ class Filter {
   Vec2 radius() const;
 
  private:
-  TaggedStorage<560> storage_;
+  TaggedStorage<1072> storage_;
 };
 
 std::span<const ModelDecl* const> filter_models();

@@ -11,37 +11,45 @@ namespace etd {
 struct GaussianFilter {
   static constexpr int kCells = 64;
 
-  // exp(-x^2 / 2 sigma^2) - exp(-r^2 / 2 sigma^2) on [-r, r].
+  // exp(-x^2 / 2 sigma^2) - exp(-r^2 / 2 sigma^2) on [-r, r], divided by 1 - exp(-r^2 / 2 sigma^2), so that it is 1 in
+  // the middle whatever sigma is: for a wide one it becomes the parabola 1 - x^2 / r^2.
   struct Profile {
-    float r = 1, sigma = 1, edge = 0, integral = 1;
-    std::array<float, kCells + 1> cdf{};  // of |x|, at the cell borders
+    float r = 1, sigma = 1, reach = 1, integral = 1;
+    std::array<float, kCells + 1> values{}, cdf{};  // of |x|, at the borders of the cells of [0, reach]
 
     Profile() = default;
-    Profile(float radius, float s) : r(radius), sigma(s) {
-      const double rd = r, sd = s, e = std::exp(-rd * rd / (2 * sd * sd));
-      edge = static_cast<float>(e);
-      integral =
-          static_cast<float>(sd * std::sqrt(2 * double{kPi}) * std::erf(rd / (sd * std::sqrt(2.0))) - 2 * rd * e);
-      double sum = 0.0;
-      std::array<double, kCells + 1> c{};
-      for (int i = 0; i < kCells; ++i) c[static_cast<size_t>(i) + 1] = sum += (at(i) + at(i + 1)) / 2.0;
-      for (size_t i = 0; i < c.size(); ++i) cdf[i] = static_cast<float>(c[i] / sum);
-      cdf[kCells] = 1.0f;
+    // Beyond 6 sigma lie 2e-9 of the integral: nothing is sampled there, so that a narrow bump keeps its cells.
+    Profile(float radius, float s) : r(radius), sigma(s), reach(std::min(radius, 6.0f * s)) {
+      std::array<double, kCells + 1> sums{};
+      double exact = 0.0;
+      for (int i = 0; i < kCells; ++i) {
+        const auto cell = static_cast<float>(i);
+        const double left = value(at(cell)), middle = value(at(cell + 0.5f)), right = value(at(cell + 1.0f));
+        exact += (left + 4.0 * middle + right) / 6.0;  // Simpson's rule
+        sums[static_cast<size_t>(i) + 1] = sums[static_cast<size_t>(i)] + (left + right) / 2.0;
+      }
+      for (size_t i = 0; i < values.size(); ++i) values[i] = value(at(static_cast<float>(i)));
+      integral = static_cast<float>(2.0 * exact * double{reach} / kCells);
+      for (size_t i = 0; i < sums.size(); ++i) cdf[i] = static_cast<float>(sums[i] / sums.back());
     }
-    float value(float d) const { return std::max(0.0f, std::exp(-sqr(d) / (2.0f * sqr(sigma))) - edge); }
-    float at(int i) const { return value(r * static_cast<float>(i) / kCells); }
-    float eval(float d) const { return std::abs(d) <= r ? value(d) / integral : 0.0f; }
+    // e^-a - e^-b as -e^-a expm1(a - b), which keeps its digits where a and b are small.
+    float value(float d) const {
+      const float a = sqr(d / sigma) / 2, b = sqr(r / sigma) / 2;
+      return d < r ? std::exp(-a) * std::expm1(a - b) / std::expm1(-b) : 0.0f;
+    }
+    float at(float cell) const { return reach * cell / kCells; }
+    float eval(float d) const { return value(std::abs(d)) / integral; }
 
-    // A distance in [-r, r], as offset.x, with its weight.
+    // A distance in [-reach, reach], as offset.x, with its weight.
     FilterSample sample(float u) const {
       const float v = std::min(std::abs(2.0f * u - 1.0f), kOneMinusEpsilon);
       const auto i = static_cast<size_t>(std::upper_bound(cdf.begin() + 1, cdf.end() - 1, v) - cdf.begin()) - 1;
       // Within the cell the density is linear from a to b: invert its distribution function.
-      const float a = at(static_cast<int>(i)), b = at(static_cast<int>(i) + 1), mass = cdf[i + 1] - cdf[i];
-      const float t = mass > 0 ? clamp((v - cdf[i]) / mass, 0.0f, 1.0f) : 0.5f;
+      const float a = values[i], b = values[i + 1], mass = cdf[i + 1] - cdf[i];
+      const float t = clamp((v - cdf[i]) / mass, 0.0f, 1.0f);
       const float s = t * (a + b) / (a + safe_sqrt(lerp(t, sqr(a), sqr(b))));
-      const float d = r * (static_cast<float>(i) + s) / kCells;
-      const float density = mass * kCells / r * 2.0f * lerp(s, a, b) / (a + b);  // of |x|
+      const float d = at(static_cast<float>(i) + s);
+      const float density = mass * kCells / reach * 2.0f * lerp(s, a, b) / (a + b);  // of |x|
       if (!(density > 0)) return {{}, 0.0f};
       return {{u < 0.5f ? -d : d, 0}, value(d) * 2.0f / (integral * density)};
     }
@@ -50,23 +58,27 @@ struct GaussianFilter {
   Profile x, y;
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{
-        Family::kFilter,
-        "gaussian",
-        "A gaussian bump, zero at its radius: smooth, slightly blurred.",
-        {{.name = "xradius", .default_value = 1.5, .min = 0, .above_min = true, .unit = "pixels", .doc = "Half width."},
-         {.name = "yradius",
-          .default_value = 1.5,
-          .min = 0,
-          .above_min = true,
-          .unit = "pixels",
-          .doc = "Half height."},
-         {.name = "sigma",
-          .default_value = 0.5,
-          .min = 0,
-          .above_min = true,
-          .unit = "pixels",
-          .doc = "Standard deviation of the bump."}}};
+    static const ModelDecl d{Family::kFilter,
+                             "gaussian",
+                             "A gaussian bump, zero at its radius: smooth, slightly blurred.",
+                             {{.name = "xradius",
+                               .default_value = 1.5,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half width."},
+                              {.name = "yradius",
+                               .default_value = 1.5,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half height."},
+                              {.name = "sigma",
+                               .default_value = 0.5,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Standard deviation of the bump."}}};
     return d;
   }
   static GaussianFilter create(const ParamReader& p) {

@@ -9,17 +9,21 @@ struct TriangleFilter {
   Vec2 r;  // half widths
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{
-        Family::kFilter,
-        "triangle",
-        "Falls linearly from the pixel's centre.",
-        {{.name = "xradius", .default_value = 2.0, .min = 0, .above_min = true, .unit = "pixels", .doc = "Half width."},
-         {.name = "yradius",
-          .default_value = 2.0,
-          .min = 0,
-          .above_min = true,
-          .unit = "pixels",
-          .doc = "Half height."}}};
+    static const ModelDecl d{Family::kFilter,
+                             "triangle",
+                             "Falls linearly from the pixel's centre.",
+                             {{.name = "xradius",
+                               .default_value = 2.0,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half width."},
+                              {.name = "yradius",
+                               .default_value = 2.0,
+                               .min = kMinFilterSize,
+                               .max = kMaxFilterSize,
+                               .unit = "pixels",
+                               .doc = "Half height."}}};
     return d;
   }
   static TriangleFilter create(const ParamReader& p) {

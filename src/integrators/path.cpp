@@ -92,7 +92,7 @@ struct Vertex {
 // Radiance that one sampled light sends along wo through the vertex, weighted against closure sampling under MIS.
 Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler& sampler, HashStream& rng, float time,
                     PixelSample& out) {
-  const float u_light = sampler.get_1d();
+  const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
   const auto choice = scene.light_sampler.sample(u_light);
   if (!choice) return Spectrum();

@@ -17,7 +17,7 @@ PowerLightSampler::PowerLightSampler(std::span<const Light> lights) {
   table_ = AliasTable(weights);
 }
 
-std::optional<PowerLightSampler::Choice> PowerLightSampler::sample(float u) const {
+std::optional<PowerLightSampler::Choice> PowerLightSampler::sample(double u) const {
   if (!any_) return {};
   const uint32_t light = table_.sample(u);
   return Choice{light, table_.probability(light)};

@@ -22,8 +22,8 @@ class PowerLightSampler {
   PowerLightSampler() = default;
   explicit PowerLightSampler(std::span<const Light> lights);
 
-  // Nothing when no light emits.
-  std::optional<Choice> sample(float u) const;
+  // For u in [0, 1) with all the bits of a double. Nothing when no light emits.
+  std::optional<Choice> sample(double u) const;
   float probability(uint32_t light) const { return table_.probability(light); }
 
  private:

@@ -70,6 +70,7 @@ struct DiffuseAreaLight {
   }
 
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s, LightSampling) const {
+    if (is_black(emitted(s, -wi))) return 0.0f;
     if (const auto seen = surface.seen_from(p)) return static_cast<float>(1.0 / seen->solid_angle());
     const Vec3 d = s->p - p;
     const float pdf = to_solid_angle(surface.pdf_area(s->p), dot(d, d), dot(s->ng, wi));

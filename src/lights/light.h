@@ -37,8 +37,8 @@ class Light {
   bool is_delta() const;
   // Nothing when the sample carries no light (wrong side, degenerate geometry): that is an estimate of 0.
   std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling sampling = LightSampling::kComplete) const;
-  // Solid-angle density with which sample_li makes wi; `on_light` is the point met there, null for infinite lights. 0
-  // for delta lights.
+  // Solid-angle density with which sample_li makes wi, 0 where it makes none and for delta lights; `on_light` is the
+  // point met there, null for infinite lights.
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light,
                LightSampling sampling = LightSampling::kComplete) const;
   // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w. 0 for

@@ -20,6 +20,17 @@ float Sampler::get_1d() {
   return unit_float(owen_sobol_x(i, static_cast<uint32_t>(h >> 32)));
 }
 
+double Sampler::get_choice() {
+  const uint64_t h = hash_combine(key_, dimension_++);
+  uint64_t bits = hash_combine(h, index_);
+  if (kind_ == SamplerKind::kSobol) {
+    // Behind the 32 digits that an index has, an Owen scramble is plain noise.
+    const uint32_t i = shuffled_index(index_, static_cast<uint32_t>(h));
+    bits = static_cast<uint64_t>(owen_sobol_x(i, static_cast<uint32_t>(h >> 32))) << 32 | bits >> 32;
+  }
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
 Vec2 Sampler::get_2d() {
   const uint64_t h = hash_combine(key_, dimension_++);
   if (kind_ == SamplerKind::kIndependent) {

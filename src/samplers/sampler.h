@@ -23,6 +23,8 @@ class Sampler {
   // Uniform in [0, 1). Each call of get_1d and get_2d uses one (padded) dimension.
   float get_1d();
   Vec2 get_2d();
+  // As get_1d, with all the bits of a double: for choosing one of many things.
+  double get_choice();
   // Well distributed in x and y together, z apart.
   Vec3 get_3d() {
     const Vec2 xy = get_2d();

@@ -18,12 +18,6 @@ struct PlacedShape {
   Transform to_space;
 };
 
-// An object that several instances share.
-struct PlacedInstance {
-  uint32_t object;
-  Transform to_world;
-};
-
 class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
@@ -35,7 +29,8 @@ class GeometryCompiler {
     place();
     load();
     if (diagnostics_.has_errors()) return;
-    scene_.summary.bounds = world_bounds();
+    measure();
+    if (diagnostics_.has_errors()) return;
     const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
     scene_.origin = {center.x, center.y, center.z};
     reserve();
@@ -55,9 +50,15 @@ class GeometryCompiler {
         diagnostics_.error(s.use.loc, "a shape of material \"interface\" can't be an area light",
                            "give it a material, such as a black diffuse one");
     };
+    const auto check_instance = [&](const InstanceDesc& i) {
+      if (i.to_world.is_singular()) diagnostics_.error(i.loc, "the transform of this instance is singular");
+    };
     for (const ShapeDesc& s : description_.shapes) check(s);
-    for (const ObjectDesc& o : description_.objects)
+    for (const InstanceDesc& i : description_.instances) check_instance(i);
+    for (const ObjectDesc& o : description_.objects) {
       for (const ShapeDesc& s : o.shapes) check(s);
+      for (const InstanceDesc& i : o.instances) check_instance(i);
+    }
   }
 
   bool is_interface(const ShapeDesc& s) const { return material_of_[static_cast<size_t>(s.material + 1)] == kNoId; }
@@ -65,22 +66,21 @@ class GeometryCompiler {
   // Flattens: an object that one instance uses, or that holds lights, becomes world shapes; others are shared.
   void place() {
     for (const ShapeDesc& s : description_.shapes) world_.push_back({&s, s.to_world});
-    std::vector<std::vector<Transform>> placed(description_.objects.size());
-    for (const InstanceDesc& i : description_.instances) placed[static_cast<size_t>(i.object)].push_back(i.to_world);
+    std::vector<std::vector<InstanceDesc>> placed(description_.objects.size());
+    for (const InstanceDesc& i : description_.instances) placed[static_cast<size_t>(i.object)].push_back(i);
     // Objects only contain earlier ones, so going backwards every placement is known before its object is reached.
     for (size_t o = description_.objects.size(); o-- > 0;) {
-      const bool flatten = placed[o].size() == 1 || emits(description_.objects[o]);
-      for (const Transform& t : placed[o]) {
-        if (!flatten) {
-          shared_.push_back({static_cast<uint32_t>(o), t});
-          continue;
-        }
-        for (const ShapeDesc& s : description_.objects[o].shapes) world_.push_back({&s, t * s.to_world});
-        for (const InstanceDesc& i : description_.objects[o].instances)
-          placed[static_cast<size_t>(i.object)].push_back(t * i.to_world);
+      const ObjectDesc& object = description_.objects[o];
+      if (placed[o].size() > 1 && !emits(object)) {
+        shared_.insert(shared_.end(), placed[o].begin(), placed[o].end());
+        expand(object, Transform(), objects_[static_cast<int>(o)]);
+        continue;
       }
-      if (!flatten && !placed[o].empty())
-        expand(description_.objects[o], Transform(), objects_[static_cast<uint32_t>(o)]);
+      for (const InstanceDesc& outer : placed[o]) {
+        for (const ShapeDesc& s : object.shapes) world_.push_back({&s, outer.to_world * s.to_world});
+        for (const InstanceDesc& i : object.instances)
+          placed[static_cast<size_t>(i.object)].push_back({i.object, outer.to_world * i.to_world, i.loc});
+      }
     }
   }
 
@@ -123,19 +123,41 @@ class GeometryCompiler {
     bounds.extend(box.hi);
   }
 
-  Bounds3 world_bounds() const {
-    Bounds3 world;
-    for (const PlacedShape& s : world_) extend(world, s);
-    for (const auto& [object, shapes] : objects_) {
-      Bounds3 local;
-      for (const PlacedShape& s : shapes) extend(local, s);
-      if (local.empty()) continue;
-      for (const PlacedInstance& i : shared_)
-        for (int corner = 0; i.object == object && corner < 8; ++corner)
-          world.extend(i.to_world.point({corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
-                                         corner & 4 ? local.hi.z : local.lo.z}));
+  // Bounds of the objects in their own space and of the world, not recentred. Reports what is too large for the
+  // accelerator, which leaves out without a word what lies beyond 1.8e18.
+  void measure() {
+    for (const PlacedShape& s : world_) {
+      Bounds3 b;
+      extend(b, s);
+      add_bounds(scene_.summary.bounds, b, s.shape->use.loc, s.shape->use.model);
     }
-    return world;
+    for (const auto& [object, shapes] : objects_) {
+      Bounds3& local = local_bounds_[object];
+      for (const PlacedShape& s : shapes) {
+        Bounds3 b;
+        extend(b, s);
+        add_bounds(local, b, s.shape->use.loc, s.shape->use.model);
+      }
+    }
+    for (const InstanceDesc& i : shared_) {
+      const Bounds3& local = local_bounds_[i.object];
+      Bounds3 b;
+      for (int corner = 0; !local.empty() && corner < 8; ++corner)
+        b.extend(i.to_world.point({corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
+                                   corner & 4 ? local.hi.z : local.lo.z}));
+      add_bounds(scene_.summary.bounds, b, i.loc, "instance");
+    }
+  }
+
+  void add_bounds(Bounds3& all, const Bounds3& b, SourceLoc loc, std::string_view what) {
+    constexpr double kLimit = 1e18;
+    if (b.empty()) return;
+    const Vec3d lo = b.lo - Point3d{}, hi = b.hi - Point3d{};
+    if (!(std::max(max_component(-lo), max_component(hi)) < kLimit))
+      diagnostics_.error(loc, fmt::format("this {} is too large or too far away", what),
+                         "coordinates must stay below 1e18");
+    all.extend(b.lo);
+    all.extend(b.hi);
   }
 
   // Lights and the accelerator keep pointers into these arrays, so they must not grow later.
@@ -187,29 +209,31 @@ class GeometryCompiler {
   }
 
   void add_groups() {
-    size_t world_triangles = scene_.summary.triangles;
-    std::map<uint32_t, uint32_t> group_of;
-    std::map<uint32_t, Vec3d> origin_of;
-    std::map<uint32_t, size_t> triangles_of;
+    struct Group {
+      uint32_t index;
+      Transform from_group;  // to the object's space
+      size_t triangles;
+    };
+    std::map<int, Group> group_of;
+    size_t triangles_seen = scene_.summary.triangles;
     for (const auto& [object, shapes] : objects_) {
-      Bounds3 local;
-      for (const PlacedShape& s : shapes) extend(local, s);
-      const Point3d c = local.empty() ? Point3d{} : local.center();
-      origin_of[object] = {c.x, c.y, c.z};
+      const Bounds3& local = local_bounds_[object];
+      const Vec3d origin = (local.empty() ? Point3d{} : local.center()) - Point3d{};
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const size_t before = scene_.summary.triangles;
-      for (const PlacedShape& s : shapes) add(s, origin_of[object], group);
-      triangles_of[object] = scene_.summary.triangles - before;
-      group_of[object] = static_cast<uint32_t>(scene_.geometry.groups.size());
+      for (const PlacedShape& s : shapes) add(s, origin, group);
+      group_of[object] = {static_cast<uint32_t>(scene_.geometry.groups.size()), Transform::translate(origin),
+                          scene_.summary.triangles - before};
       scene_.geometry.groups.push_back(std::move(group));
     }
-    for (const PlacedInstance& i : shared_) {
-      const Transform t = Transform::translate(-scene_.origin) * i.to_world * Transform::translate(origin_of[i.object]);
-      scene_.geometry.instances.push_back({group_of[i.object], Affine(t.matrix()), Affine(t.inverse_matrix())});
-      world_triangles += triangles_of[i.object];
+    for (const InstanceDesc& i : shared_) {
+      const Group& group = group_of[i.object];
+      const Transform t = Transform::translate(-scene_.origin) * i.to_world * group.from_group;
+      scene_.geometry.instances.push_back({group.index, Affine(t.matrix()), Affine(t.inverse_matrix())});
+      triangles_seen += group.triangles;
     }
-    scene_.summary.instanced_triangles = world_triangles;
+    scene_.summary.instanced_triangles = triangles_seen;
   }
 
   struct Emitter {
@@ -231,8 +255,9 @@ class GeometryCompiler {
   Scene& scene_;
   Diagnostics& diagnostics_;
   std::vector<PlacedShape> world_;
-  std::vector<PlacedInstance> shared_;
-  std::map<uint32_t, std::vector<PlacedShape>> objects_;  // the shared ones, expanded
+  std::vector<InstanceDesc> shared_;                 // all that stay instances
+  std::map<int, std::vector<PlacedShape>> objects_;  // the objects of those, expanded
+  std::map<int, Bounds3> local_bounds_;
   std::map<const ShapeDesc*, ShapeGeometry> loaded_;
   std::vector<Emitter> emitters_;
 };

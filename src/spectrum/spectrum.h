@@ -48,9 +48,9 @@ struct alignas(16) Spectrum {
 
 ETD_FN float max_value(const Spectrum& s) { return std::max(s.v[0], std::max(s.v[1], s.v[2])); }
 ETD_FN float mean_value(const Spectrum& s) { return (s.v[0] + s.v[1] + s.v[2]) * (1.0f / 3.0f); }
-// Lane by lane.
+// Lane by lane; NaN gives lo.
 ETD_FN Spectrum max(Spectrum s, float lo) {
-  for (float& v : s.v) v = std::max(v, lo);
+  for (float& v : s.v) v = v > lo ? v : lo;
   return s;
 }
 ETD_FN Spectrum clamp(Spectrum s, float lo, float hi) {

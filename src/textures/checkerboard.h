@@ -28,8 +28,13 @@ struct CheckerboardTexture {
 
   Spectrum eval(const TexCoord& at, const TextureTable& table) const {
     const Vec2 st = mapping(at.uv);
-    const auto parity = static_cast<int64_t>(std::floor(st.x)) + static_cast<int64_t>(std::floor(st.y));
-    return table.eval(parity % 2 == 0 ? tex1 : tex2, at);
+    return table.eval(in_odd_cell(st.x) == in_odd_cell(st.y) ? tex1 : tex2, at);
+  }
+
+ private:
+  static bool in_odd_cell(float x) {
+    const float half = std::floor(x) * 0.5f;  // exact, so halves are odd cells, however far out
+    return half != std::floor(half);
   }
 };
 

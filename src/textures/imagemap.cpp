@@ -6,7 +6,7 @@ const ModelDecl& ImageMapTexture::decl() {
   static const ModelDecl d = with_uv_mapping(
       {Family::kTexture,
        "imagemap",
-       "An image file; of a float texture, the mean of its colours.",
+       "An image file; of a float texture, its alpha if it is anywhere below 1, otherwise the mean of its colours.",
        {{.name = "filename",
          .type = ParamType::kString,
          .required = true,
@@ -22,12 +22,27 @@ const ModelDecl& ImageMapTexture::decl() {
          .choices = {"repeat", "black", "clamp", "octahedralsphere"},
          .doc = "What lies outside the unit square."},
         {.name = "scale", .default_value = 1.0, .doc = "Factor on the values."},
-        {.name = "invert", .type = ParamType::kBool, .default_value = false, .doc = "Use one minus the value instead."},
+        {.name = "invert",
+         .type = ParamType::kBool,
+         .default_value = false,
+         .doc = "Use one minus the scaled value instead."},
         {.name = "encoding",
          .type = ParamType::kString,
          .doc = "How integers in the file stand for values: sRGB (default), linear, or gamma X."}}});
   return d;
 }
+
+namespace {
+
+bool has_alpha(const Image& img) {
+  if (img.channels() < 4) return false;
+  for (int y = 0; y < img.height(); ++y)
+    for (int x = 0; x < img.width(); ++x)
+      if (img.texel(x, y, 3) != 1.0f) return true;
+  return false;
+}
+
+}  // namespace
 
 ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b, bool is_float) {
   ImageMapTexture t;
@@ -40,10 +55,10 @@ ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b,
   t.mapping = UvMapping::create(p);
   t.scale = static_cast<float>(p.number("scale"));
   t.invert = p.boolean("invert");
-  t.average = is_float;
   const Param* encoding = p.given("encoding");
   if (const Param* file = p.given("filename"))
     t.image = b.image(*file, encoding ? encoding->strings[0] : "sRGB", p.diagnostics());
+  if (is_float) t.channels = t.image >= 0 && has_alpha(b.image_at(t.image)) ? Channels::kAlpha : Channels::kMean;
   return t;
 }
 
@@ -80,7 +95,9 @@ Spectrum ImageMapTexture::texel(const Image& img, int x, int y) const {
     x = wrapped(x, img.width(), wrap), y = wrapped(y, img.height(), wrap);
   if (x < 0 || y < 0) return Spectrum();
   if (img.channels() == 1) return Spectrum(img.texel(x, y, 0));
-  return Spectrum::rgb(img.texel(x, y, 0), img.texel(x, y, 1), img.texel(x, y, 2));
+  if (channels == Channels::kAlpha) return Spectrum(img.texel(x, y, 3));
+  const Spectrum color = Spectrum::rgb(img.texel(x, y, 0), img.texel(x, y, 1), img.texel(x, y, 2));
+  return channels == Channels::kMean ? Spectrum(mean_value(color)) : color;
 }
 
 Spectrum ImageMapTexture::eval(const TexCoord& at, const TextureTable& table) const {
@@ -101,9 +118,8 @@ Spectrum ImageMapTexture::eval(const TexCoord& at, const TextureTable& table) co
     value = (texel(img, ix, iy) * (1 - dx) + texel(img, ix + 1, iy) * dx) * (1 - dy) +
             (texel(img, ix, iy + 1) * (1 - dx) + texel(img, ix + 1, iy + 1) * dx) * dy;
   }
-  if (average) value = Spectrum(mean_value(value));
-  value = invert ? Spectrum(1.0f) - value : value * scale;
-  return max(value, 0.0f);
+  value *= scale;
+  return max(invert ? Spectrum(1.0f) - value : value, 0.0f);
 }
 
 }  // namespace etd

@@ -8,11 +8,15 @@ namespace etd {
 
 struct ImageMapTexture {
   enum class Wrap : uint8_t { kRepeat, kBlack, kClamp, kOctahedralSphere };
+  // What is read of a texel. A float texture is the mean of the colours, or alpha where the image has any that is
+  // not 1.
+  enum class Channels : uint8_t { kColor, kMean, kAlpha };
 
   int32_t image = -1;
   UvMapping mapping;
   float scale = 1;
-  bool invert = false, nearest = false, average = false;  // average: a float texture of a colour image
+  bool invert = false, nearest = false;
+  Channels channels = Channels::kColor;
   Wrap wrap = Wrap::kRepeat;
 
   static const ModelDecl& decl();

@@ -30,6 +30,7 @@ class TextureBuilder {
   FloatSource number(const ParamReader& params, std::string_view name) const;
   // Index of an image of the table, read once per file and encoding; -1 and an error when it can't be read.
   int32_t image(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
+  const Image& image_at(int32_t index) const { return table_.images[static_cast<size_t>(index)]; }
 
  private:
   int32_t find(const Param& reference, bool is_float, Diagnostics& diagnostics) const;

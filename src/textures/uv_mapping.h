@@ -1,6 +1,7 @@
 // The affine map from a surface's uv to texture coordinates that two-dimensional textures share.
 #pragma once
 
+#include "core/vec.h"
 #include "params/declaration.h"
 
 namespace etd {
@@ -18,7 +19,11 @@ struct UvMapping {
     return {static_cast<float>(p.number("uscale")), static_cast<float>(p.number("vscale")),
             static_cast<float>(p.number("udelta")), static_cast<float>(p.number("vdelta"))};
   }
-  Vec2 operator()(Vec2 uv) const { return {su * uv.x + du, sv * uv.y + dv}; }
+  // Always finite: coordinates beyond all numbers count as 0.
+  Vec2 operator()(Vec2 uv) const {
+    const float s = su * uv.x + du, t = sv * uv.y + dv;
+    return {std::isfinite(s) ? s : 0.0f, std::isfinite(t) ? t : 0.0f};
+  }
 };
 
 // A declaration with the parameters of the mapping behind its own.
