@@ -1,0 +1,229 @@
+// The materials: from parameters and textures to closures; and closures placed on surfaces whose shading normal is not
+// the geometric one.
+#include "materials/material.h"
+
+#include <gtest/gtest.h>
+
+#include "bsdfs/conductor.h"
+#include "bsdfs/dielectric.h"
+#include "bsdfs/lambert.h"
+#include "core/warp.h"
+#include "materials/surface_scatter.h"
+#include "model_uses.h"
+#include "spectrum/named.h"
+#include "temp_folder.h"
+
+namespace etd {
+namespace {
+
+// The closure of a checked material without textures.
+Bsdf closure(const ModelUse& use) {
+  Diagnostics diagnostics;
+  for (const ModelDecl* decl : material_models())
+    if (decl->name == use.model) check_params(*decl, use, diagnostics);
+  TextureTable table;
+  TextureBuilder builder(table, {});
+  const auto material = make_material(use, builder, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
+  return material->closure({}, table);
+}
+
+int errors_of(const ModelUse& use) {
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, {});
+  make_material(use, builder, diagnostics);
+  return diagnostics.error_count();
+}
+
+const Vec3 kUp{0, 0, 1};
+
+TEST(ConductorMaterial, ReflectanceAtNormalIncidence) {
+  for (const double r : {0.0, 1e-4, 0.1, 0.5, 0.9, 0.99, 1.0}) {
+    const Bsdf b = closure(use_of("conductor", {rgb("reflectance", r, r / 2, 0)}));
+    EXPECT_TRUE(b.is_delta_only());
+    EXPECT_NEAR(b.albedo(kUp)[0], std::min(r, 0.9999), 1e-6);
+    EXPECT_NEAR(b.albedo(kUp)[1], r / 2, 1e-6);
+    EXPECT_NEAR(b.albedo(kUp)[2], 0, 1e-6);
+    if (r >= 0.1) {
+      EXPECT_GT(b.albedo(normalize(Vec3{1, 0, 0.001f}))[1], 0.98f);  // towards 1 at grazing angles
+    }
+  }
+}
+
+TEST(ConductorMaterial, CopperByDefault) {
+  const Bsdf b = closure(use_of("conductor"));
+  const Spectrum eta = *named_spectrum("metal-Cu-eta"), k = *named_spectrum("metal-Cu-k");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(b.albedo(kUp)[i], fresnel_conductor(1, eta[i], k[i]));
+  EXPECT_GT(b.albedo(kUp)[0], b.albedo(kUp)[2] + 0.2f);  // reddish
+}
+
+TEST(ConductorMaterial, RoughnessAndItsRemapping) {
+  const auto same = [](const Bsdf& a, const Bsdf& b) {
+    HashStream rng(0);
+    const Vec3 wo = normalize(Vec3{0.3f, 0.1f, 0.8f}), wi = normalize(Vec3{-0.2f, 0.1f, 0.7f});
+    return a.eval_cos(wo, wi, TransportMode::kRadiance, rng)[0] == b.eval_cos(wo, wi, TransportMode::kRadiance, rng)[0];
+  };
+  const Bsdf remapped = closure(use_of("conductor", {number("roughness", 0.25)}));
+  EXPECT_FALSE(remapped.is_delta_only());
+  EXPECT_TRUE(
+      same(remapped, closure(use_of("conductor", {number("roughness", 0.5), boolean("remaproughness", false)}))));
+  const Bsdf along_u = closure(use_of("conductor", {number("roughness", 0.25), number("uroughness", 0.04)}));
+  EXPECT_TRUE(same(along_u, closure(use_of("conductor", {number("uroughness", 0.04), number("vroughness", 0.25)}))));
+  EXPECT_FALSE(same(along_u, closure(use_of("conductor", {number("uroughness", 0.25), number("vroughness", 0.04)}))));
+  EXPECT_TRUE(closure(use_of("conductor", {number("roughness", 9e-7)})).is_delta_only());  // alpha 9.5e-4
+  EXPECT_FALSE(closure(use_of("conductor", {number("roughness", 1.1e-6)})).is_delta_only());
+  EXPECT_TRUE(
+      closure(use_of("conductor", {number("roughness", 9e-4), boolean("remaproughness", false)})).is_delta_only());
+}
+
+TEST(ConductorMaterial, EitherReflectanceOrIndices) {
+  EXPECT_EQ(errors_of(use_of("conductor", {number("reflectance", 0.5), number("eta", 1)})), 1);
+}
+
+TEST(DielectricMaterial, IndicesByNumberAndName) {
+  const auto reflectance = [](const ModelUse& use) {
+    HashStream rng(0);
+    const auto s = closure(use).sample(kUp, {0.5f, 0.5f, 0}, TransportMode::kRadiance, rng);
+    return s->is_transmission() ? 0.0f : s->pdf;
+  };
+  EXPECT_NEAR(reflectance(use_of("dielectric")), 0.04f, 1e-6f);
+  EXPECT_NEAR(reflectance(use_of("dielectric", {number("eta", 2)})), 1 / 9.0f, 1e-6f);
+  const std::pair<const char*, double> glasses[] = {{"glass-BK7", 1.5168}, {"glass-SF11", 1.78472}};
+  for (const auto& [name, n] : glasses)
+    EXPECT_NEAR(reflectance(use_of("dielectric", {text("eta", name, ParamKind::kSpectrum)})),
+                (n - 1) * (n - 1) / ((n + 1) * (n + 1)), 1e-6);
+  EXPECT_EQ(closure(use_of("dielectric", {number("eta", 1)})).lobes(), kTransmission | kDelta);
+  EXPECT_EQ(errors_of(use_of("dielectric", {text("eta", "glass-butter", ParamKind::kSpectrum)})), 1);
+  EXPECT_EQ(errors_of(use_of("dielectric", {rgb("eta", 1.5, 1.6, 1.7)})), 1);
+}
+
+TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
+  const TempFolder folder;
+  const float values[3] = {4, -1, 0.25f};
+  std::string pfm = "PF\n1 1\n-1.0\n";
+  pfm.append(reinterpret_cast<const char*>(values), sizeof values);
+  folder.write("bright.pfm", pfm);
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, folder.path());
+  builder.add("bright", false, use_of("imagemap", {text("filename", "bright.pfm")}), diagnostics);
+  const auto material = make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
+  const Spectrum albedo = material->closure({}, table).albedo(kUp);
+  EXPECT_EQ(albedo[0], 1.0f);
+  EXPECT_EQ(albedo[1], 0.0f);
+  EXPECT_EQ(albedo[2], 0.25f);
+  EXPECT_EQ(closure(use_of("diffuse")).albedo(kUp)[0], 0.5f);
+}
+
+TEST(Materials, InterfaceIsNone) {
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, {});
+  EXPECT_FALSE(make_material(use_of("interface"), builder, diagnostics));
+  EXPECT_EQ(errors_of(use_of("diffuse", {texture("reflectance", "nowhere")})), 1);
+}
+
+// A surface whose shading normal leans 40 degrees away from the geometric one.
+struct Leaning {
+  Vec3 ng = normalize(Vec3{0.2f, -0.3f, 0.9f});
+  Vec3 ns = normalize(ng + Frame::from_z(ng).x * 0.839f);
+  Frame frame = Frame::from_z(ns);
+};
+
+TEST(SurfaceScatter, SidesOfBothNormalsMustAgree) {
+  const Leaning l;
+  const Bsdf closures[] = {Bsdf(Lambert{Spectrum(0.5f)}),
+                           Bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}})};
+  HashStream rng(1);
+  int disagreements = 0;
+  for (const Bsdf& bsdf : closures)
+    for (int i = 0; i < 4000; ++i) {
+      const SurfaceScatter scatter(bsdf, l.frame, l.ng);
+      const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      const Vec3 wi = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      const bool same_ns = dot(wo, l.ns) * dot(wi, l.ns) > 0, same_ng = dot(wo, l.ng) * dot(wi, l.ng) > 0;
+      const Spectrum f = scatter.eval_cos(wo, wi, TransportMode::kRadiance, rng);
+      const float pdf = scatter.pdf(wo, wi, TransportMode::kRadiance);
+      EXPECT_EQ(f[0] > 0, same_ns && same_ng);
+      EXPECT_EQ(pdf > 0, same_ns && same_ng);
+      disagreements += same_ns != same_ng;
+    }
+  EXPECT_GT(disagreements, 500);
+}
+
+TEST(SurfaceScatter, RefractionCrossesBothNormals) {
+  const Leaning l;
+  const SurfaceScatter scatter(Bsdf(SmoothDielectric{1.5f}), l.frame, l.ng);
+  HashStream rng(2);
+  int failures = 0, made = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const auto s = scatter.sample(wo, {0.5f, 0.5f, rng.next_float()}, TransportMode::kRadiance, rng);
+    failures += !s;
+    if (!s) continue;
+    ++made;
+    const bool crosses_ns = dot(wo, l.ns) * dot(s->wi, l.ns) < 0, crosses_ng = dot(wo, l.ng) * dot(s->wi, l.ng) < 0;
+    EXPECT_EQ(crosses_ns, s->is_transmission());
+    EXPECT_EQ(crosses_ng, s->is_transmission());
+    EXPECT_NEAR(length(s->wi), 1.0f, 1e-5f);
+  }
+  EXPECT_GT(failures, 100);
+  EXPECT_GT(made, 2000);
+}
+
+TEST(SurfaceScatter, SampleEvalAndPdfAgreeInTheWorld) {
+  const Leaning l;
+  const Bsdf closures[] = {Bsdf(Lambert{Spectrum(0.5f)}),
+                           Bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}})};
+  HashStream rng(3);
+  for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance})
+    for (const Bsdf& bsdf : closures)
+      for (int i = 0; i < 2000; ++i) {
+        const SurfaceScatter scatter(bsdf, l.frame, l.ng);
+        const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+        const auto s = scatter.sample(wo, {rng.next_float(), rng.next_float(), 0.5f}, mode, rng);
+        if (!s || std::abs(dot(s->wi, l.ns)) < 0.01f || std::abs(dot(wo, l.ns)) < 0.01f) continue;
+        EXPECT_NEAR(scatter.pdf(wo, s->wi, mode) / s->pdf, 1.0f, 1e-3f);
+        EXPECT_NEAR(scatter.eval_cos(wo, s->wi, mode, rng)[0] / (s->weight[0] * s->pdf), 1.0f, 1e-3f);
+      }
+}
+
+// What the factor is for: with it, importance scatters as radiance does backwards, both measured against the geometric
+// surface (Veach 1997, section 5.3).
+TEST(SurfaceScatter, ImportanceIsTheAdjointOfRadiance) {
+  const Leaning l;
+  const SurfaceScatter scatter(Bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}}), l.frame, l.ng);
+  HashStream rng(4);
+  int compared = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const Vec3 wi = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const float radiance = scatter.eval_cos(wi, wo, TransportMode::kRadiance, rng)[0] / std::abs(dot(wo, l.ng));
+    const float importance = scatter.eval_cos(wo, wi, TransportMode::kImportance, rng)[0] / std::abs(dot(wi, l.ng));
+    EXPECT_EQ(importance > 0, radiance > 0);
+    if (!(radiance > 0)) continue;
+    EXPECT_NEAR(importance / radiance, 1.0f, 1e-3f);
+    ++compared;
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(Frame, StaysOrthonormalForEveryTangent) {
+  HashStream rng(5);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 n = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const Vec3 aside = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const float off = std::pow(10.0f, -8 * rng.next_float()), size = std::pow(10.0f, 16 * rng.next_float() - 8);
+    const Frame f = Frame::from_z_tangent(n, (n + aside * off) * size);
+    EXPECT_NEAR(length(f.x), 1, 1e-3f);
+    EXPECT_NEAR(length(f.y), 1, 1e-3f);
+    EXPECT_NEAR(dot(f.x, f.z), 0, 1e-3f);
+    EXPECT_NEAR(dot(f.y, f.z), 0, 1e-3f);
+    EXPECT_NEAR(dot(f.x, f.y), 0, 1e-3f);
+  }
+}
+
+}  // namespace
+}  // namespace etd
