@@ -10,7 +10,6 @@
 #include "core/warp.h"
 #include "materials/surface_scatter.h"
 #include "model_uses.h"
-#include "spectrum/named.h"
 #include "temp_folder.h"
 
 namespace etd {
@@ -53,8 +52,9 @@ TEST(ConductorMaterial, ReflectanceAtNormalIncidence) {
 
 TEST(ConductorMaterial, CopperByDefault) {
   const Bsdf b = closure(use_of("conductor"));
-  const Spectrum eta = *named_spectrum("metal-Cu-eta"), k = *named_spectrum("metal-Cu-k");
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(b.albedo(kUp)[i], fresnel_conductor(1, eta[i], k[i]));
+  const Bsdf copper = closure(use_of(
+      "conductor", {text("eta", "metal-Cu-eta", ParamKind::kSpectrum), text("k", "metal-Cu-k", ParamKind::kSpectrum)}));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(b.albedo(kUp)[i], copper.albedo(kUp)[i]);
   EXPECT_GT(b.albedo(kUp)[0], b.albedo(kUp)[2] + 0.2f);  // reddish
 }
 
