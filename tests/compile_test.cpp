@@ -45,7 +45,7 @@ TEST(Compile, EmptyWorlds) {
   EXPECT_EQ(only_light->summary.lights.at("infinite"), 1u);
   const auto invisible = scene_of("Material \"interface\"\n" + kTriangle + "\nShape \"sphere\"\n");
   EXPECT_TRUE(invisible->geometry.meshes.empty());
-  EXPECT_TRUE(invisible->geometry.spheres.empty());
+  EXPECT_TRUE(invisible->geometry.quadrics.empty());
   EXPECT_TRUE(invisible->summary.bounds.empty());
 }
 
@@ -160,7 +160,7 @@ TEST(Compile, FarScenesKeepTheirLocalGeometry) {
   for (size_t m = 0; m < here->geometry.meshes.size(); ++m)
     for (size_t i = 0; i < 3; ++i)
       EXPECT_LT(length(here->geometry.meshes[m].positions[i] - there->geometry.meshes[m].positions[i]), 1e-6f);
-  EXPECT_LT(length(here->geometry.spheres[0].to_world.t - there->geometry.spheres[0].to_world.t), 1e-6f);
+  EXPECT_LT(length(here->geometry.quadrics[0].to_world.t - there->geometry.quadrics[0].to_world.t), 1e-6f);
   for (size_t i = 0; i < 2; ++i)
     EXPECT_LT(length(here->geometry.instances[i].to_world.t - there->geometry.instances[i].to_world.t), 1e-6f);
   const Point3 middle = there->geometry.meshes[0].positions[0];

@@ -23,9 +23,7 @@ Mesh triangle_mesh(Point3 a, Point3 b, Point3 c) {
   return m;
 }
 
-Sphere sphere(const Transform& t, bool reversed = false) {
-  return {Affine(t.matrix()), Affine(t.inverse_matrix()), reversed};
-}
+Quadric sphere(const Transform& t, bool reversed = false) { return Quadric(t, reversed); }
 
 // The mean of 1 / pdf over a grid of samples: the solid angle that is sampled. Every sample is checked against pdf_li.
 double sampled_solid_angle(const Light& light, Point3 p) {
@@ -93,16 +91,16 @@ TEST(DiffuseAreaLight, DegenerateTrianglesGiveNothing) {
 }
 
 TEST(DiffuseAreaLight, SphereFromOutside) {
-  const Sphere s = sphere(Transform::translate({1, 2, 3}) * Transform::scale({0.5, 0.5, 0.5}));
-  const Light one(DiffuseAreaLight<SphereSurface>{Spectrum(2), SphereSurface(s), false});
+  const Quadric s = sphere(Transform::translate({1, 2, 3}) * Transform::scale({0.5, 0.5, 0.5}));
+  const Light one(DiffuseAreaLight<QuadricSurface>{Spectrum(2), QuadricSurface(s), false});
   const Point3 p{1, 2, 5};  // four radii away
   const double cap = 2 * double{kPi} * (1 - std::sqrt(1 - 1 / 16.0));
   EXPECT_NEAR(sampled_solid_angle(one, p), cap, 0.01 * cap);
   EXPECT_NEAR(one.power()[0], 2 * kPi * kPi, 1e-4f);
-  const Light two(DiffuseAreaLight<SphereSurface>{Spectrum(2), SphereSurface(s), true});
+  const Light two(DiffuseAreaLight<QuadricSurface>{Spectrum(2), QuadricSurface(s), true});
   EXPECT_NEAR(sampled_solid_angle(two, p), 2 * cap, 0.02 * cap);  // the far side counts, whatever hides it
-  const Sphere reversed = sphere(Transform::translate({1, 2, 3}), true);
-  const Light inward(DiffuseAreaLight<SphereSurface>{Spectrum(2), SphereSurface(reversed), false});
+  const Quadric reversed = sphere(Transform::translate({1, 2, 3}), true);
+  const Light inward(DiffuseAreaLight<QuadricSurface>{Spectrum(2), QuadricSurface(reversed), false});
   EXPECT_NEAR(sampled_solid_angle(inward, {1.5f, 2, 3.2f}), 4 * kPi, 0.02);
 }
 
@@ -112,15 +110,15 @@ TEST(DiffuseAreaLight, EllipsoidsFromInsideAndTheirPower) {
                       Transform::scale({1, 2, 0.5}) * Transform::rotate(70, {3, 1, -1});
   for (const Transform& shape :
        {t, t * Transform::scale({-1, 1, 1}), Transform::scale({1e-3, 1e-3, 2e-3}), Transform::scale({1e4, 2e4, 1e4})}) {
-    const Sphere s = sphere(shape, true);
-    const Light light(DiffuseAreaLight<SphereSurface>{Spectrum(1), SphereSurface(s), false});
+    const Quadric s = sphere(shape, true);
+    const Light light(DiffuseAreaLight<QuadricSurface>{Spectrum(1), QuadricSurface(s), false});
     EXPECT_NEAR(sampled_solid_angle(light, to_float(shape.point({0.2, -0.1, 0.3}))), 4 * kPi, 0.05);
     double area = 0;  // the mean of 1 / pdf_area
     for (int i = 0; i < kSteps; ++i)
       for (int j = 0; j < kSteps; ++j) {
         float pdf = 0;
-        SphereSurface(s).sample({(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps},
-                                pdf);
+        QuadricSurface(s).sample({(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps},
+                                 pdf);
         area += 1.0 / pdf / (double(kSteps) * kSteps);
       }
     EXPECT_NEAR(light.power()[0] / (kPi * area), 1.0, 1e-3);
