@@ -78,7 +78,7 @@ void prepare(Compiled& c) {
 TEST(MeshShapes, OffAndObjInTheLanguage) {
   const TempFolder folder;
   folder.write("a.off", kOff);
-  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl lamp\nKd 0 0 0\nKe 2 3 4\n");
+  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nd 0.25\nnewmtl lamp\nKd 0 0 0\nKe 2 3 4\n");
   folder.write("a.obj",
                "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl lamp\nf 1 2 3\n"
                "usemtl gone\nf 1 2 3\n");
@@ -104,6 +104,8 @@ TEST(MeshShapes, OffAndObjInTheLanguage) {
         c.description.materials[static_cast<size_t>(c.description.shapes[2].material)].use.find("reflectance")->numbers,
         (std::vector<double>{1, 0, 0}));
     EXPECT_EQ(c.description.shapes[4].material, 0);
+    EXPECT_EQ(c.description.shapes[2].use.find("alpha")->numbers, std::vector<double>{0.25});
+    EXPECT_FALSE(c.description.shapes[3].use.find("alpha"));
   }
 }
 

@@ -18,9 +18,9 @@ class Accelerator {
   Accelerator(Accelerator&&) noexcept;
   Accelerator& operator=(Accelerator&&) noexcept;
 
-  // The nearest hit with 0 < t < ray.t_max; false (and hit untouched) when there is none.
+  // The nearest hit with ray.t_min < t < ray.t_max; false (and hit untouched) when there is none.
   bool intersect(const Ray& ray, Hit& hit) const;
-  // Whether anything lies strictly between 0 and ray.t_max.
+  // Whether anything lies strictly between ray.t_min and ray.t_max.
   bool occluded(const Ray& ray) const;
   // Memory of the acceleration structure alone.
   size_t bytes() const;

@@ -108,7 +108,7 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
   const float pdf = choice->probability * s->pdf;
   const bool both = mode == PathMode::kMis && !s->is_delta;
   const float weight = both ? mis_weight(pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
-  return f * s->radiance * (weight / pdf);
+  return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   for (const TextureDesc& t : description.textures) ++scene->summary.textures[t.use.model];
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
-  compile_geometry(description, material_of, *scene, diagnostics);
+  compile_geometry(description, material_of, textures, *scene, diagnostics);
 
   compile_lights(description, *scene, diagnostics);
 

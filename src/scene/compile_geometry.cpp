@@ -20,9 +20,13 @@ struct PlacedShape {
 
 class GeometryCompiler {
  public:
-  GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
-                   Diagnostics& diagnostics)
-      : description_(description), material_of_(material_of), scene_(scene), diagnostics_(diagnostics) {}
+  GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of,
+                   const TextureBuilder& textures, Scene& scene, Diagnostics& diagnostics)
+      : description_(description),
+        material_of_(material_of),
+        textures_(textures),
+        scene_(scene),
+        diagnostics_(diagnostics) {}
 
   void run() {
     check_shapes();
@@ -103,10 +107,22 @@ class GeometryCompiler {
     const auto load_one = [&](const ShapeDesc& s) {
       if (!find_model(Family::kShape, s.use.model) || is_interface(s)) return;
       if (auto geometry = make_shape(s.use, description_.folder, diagnostics_)) loaded_[&s] = std::move(*geometry);
+      if (s.use.find("alpha")) load_alpha(s);
     };
     for (const ShapeDesc& s : description_.shapes) load_one(s);
     for (const ObjectDesc& o : description_.objects)
       for (const ShapeDesc& s : o.shapes) load_one(s);
+  }
+
+  void load_alpha(const ShapeDesc& s) {
+    const ParamReader p(*find_model(Family::kShape, s.use.model), s.use, diagnostics_);
+    const FloatSource alpha = textures_.number(p, "alpha");
+    if (alpha.texture >= 0 || (alpha.value > 0 && alpha.value < 1)) alpha_[&s] = alpha;
+    if (alpha.texture >= 0 || alpha.value > 0) return;
+    loaded_.erase(&s);
+    if (s.area_light >= 0)
+      diagnostics_.unsupported(s.use.find("alpha")->loc, "an area light that shines but is not there (alpha 0)",
+                               "no surface and no light");
   }
 
   // Corners of the shape in its space: mesh vertices, or those of the box around a quadric.
@@ -172,7 +188,12 @@ class GeometryCompiler {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
     const Transform to_space = Transform::translate(-origin) * placed.to_space;
-    const SurfaceBinding binding{material_of_[static_cast<size_t>(placed.shape->material + 1)], kNoId};
+    SurfaceBinding binding;
+    binding.material = material_of_[static_cast<size_t>(placed.shape->material + 1)];
+    if (const auto alpha = alpha_.find(placed.shape); alpha != alpha_.end()) {
+      scene_.has_holes = binding.has_holes = true;
+      binding.alpha = alpha->second;
+    }
     ++scene_.summary.shapes[placed.shape->use.model];
     if (it->second.mesh) {
       group.meshes.push_back(static_cast<uint32_t>(scene_.geometry.meshes.size()));
@@ -246,12 +267,18 @@ class GeometryCompiler {
     AreaLightCompiler lights(description_.folder, scene_, diagnostics_);
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
+      const size_t first = scene_.lights.size();
       e.is_mesh ? lights.add_mesh(use, e.index) : lights.add_quadric(use, e.index);
+      const SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.quadric_bindings[e.index];
+      if (!binding.has_holes) continue;
+      scene_.light_alphas.resize(first, {1.0f, -1});
+      scene_.light_alphas.resize(scene_.lights.size(), binding.alpha);
     }
   }
 
   const SceneDescription& description_;
   const std::vector<uint32_t>& material_of_;
+  const TextureBuilder& textures_;
   Scene& scene_;
   Diagnostics& diagnostics_;
   std::vector<PlacedShape> world_;
@@ -259,14 +286,15 @@ class GeometryCompiler {
   std::map<int, std::vector<PlacedShape>> objects_;  // the objects of those, expanded
   std::map<int, Bounds3> local_bounds_;
   std::map<const ShapeDesc*, ShapeGeometry> loaded_;
+  std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
   std::vector<Emitter> emitters_;
 };
 
 }  // namespace
 
-void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
-                      Diagnostics& diagnostics) {
-  GeometryCompiler(description, material_of, scene, diagnostics).run();
+void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of,
+                      const TextureBuilder& textures, Scene& scene, Diagnostics& diagnostics) {
+  GeometryCompiler(description, material_of, textures, scene, diagnostics).run();
 }
 
 }  // namespace etd

@@ -10,7 +10,7 @@ namespace etd {
 // Fills geometry, bindings, surface lights, bounds and origin of `scene`, whose materials are there already.
 // material_of[i + 1] is the index in scene.materials of description.materials[i], material_of[0] that of the default;
 // kNoId stands for an interface.
-void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of, Scene& scene,
-                      Diagnostics& diagnostics);
+void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of,
+                      const TextureBuilder& textures, Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace etd

@@ -1,10 +1,43 @@
 #include "scene/scene.h"
 
+#include <bit>
+
+#include "core/hash.h"
+
 namespace etd {
+
+namespace {
+
+uint64_t bits(float a, float b) { return uint64_t(std::bit_cast<uint32_t>(a)) << 32 | std::bit_cast<uint32_t>(b); }
+
+// A uniform number in [0, 1) that is the same whenever this ray meets this place.
+float number_of(const Ray& r, const Hit& hit) {
+  return unit_float(static_cast<uint32_t>(
+      hash_combine(bits(r.o.x, r.o.y), bits(r.o.z, r.d.x), bits(r.d.y, r.d.z), bits(r.time, hit.t)) >> 32));
+}
+
+}  // namespace
+
+bool Scene::is_hole(const Ray& ray, const Hit& hit) const {
+  const SurfaceBinding& binding = binding_of(hit);
+  if (!binding.has_holes) return false;
+  const float alpha = textures.eval(binding.alpha, {surface_point(geometry, hit).uv});
+  return !(alpha >= 1.0f) && !(number_of(ray, hit) < alpha);
+}
+
+// The nearest hit from `hit` on that is no hole. The ray goes on as it is, with what it has passed behind its start: a
+// new origin would not meet the same points.
+bool Scene::find_solid(Ray ray, Hit& hit) const {
+  while (is_hole(ray, hit)) {
+    ray.t_min = hit.t;
+    if (!accelerator->intersect(ray, hit)) return hit = {}, false;
+  }
+  return true;
+}
 
 SurfaceHit Scene::surface(const Hit& hit) const {
   const bool on_quadric = hit.geometry == kQuadricGeometry;
-  const SurfaceBinding& binding = on_quadric ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
+  const SurfaceBinding& binding = binding_of(hit);
   SurfaceHit s;
   s.point = surface_point(geometry, hit);
   s.material = &materials[binding.material];

@@ -22,6 +22,8 @@ struct SurfaceBinding {
   uint32_t material = 0;
   // The quadric's light, or where the lights of the mesh's triangles start in `triangle_lights`; kNoId: does not emit.
   uint32_t first_light = kNoId;
+  bool has_holes = false;
+  FloatSource alpha{1.0f, -1};
 };
 
 // A hit, ready for shading.
@@ -47,8 +49,21 @@ struct SceneSummary {
 
 class Scene {
  public:
-  bool intersect(const Ray& ray, Hit& hit) const { return accelerator->intersect(ray, hit); }
-  bool occluded(const Ray& ray) const { return accelerator->occluded(ray); }
+  // The nearest hit, and whether there is any; where surfaces have holes, a hash of the ray decides whether it meets
+  // them, so that they are there with the probability of their alpha.
+  bool intersect(const Ray& ray, Hit& hit) const {
+    return accelerator->intersect(ray, hit) && (!has_holes || find_solid(ray, hit));
+  }
+  bool occluded(const Ray& ray) const {
+    Hit hit;
+    return accelerator->occluded(ray) && (!has_holes || intersect(ray, hit));
+  }
+  // Share of a light's surface that is there: what is sampled on it shines with this factor. Scattering finds it with
+  // this probability in the first place.
+  float light_alpha(uint32_t light, const SurfacePoint& on_light) const {
+    return light < light_alphas.size() ? std::clamp(textures.eval(light_alphas[light], {on_light.uv}), 0.0f, 1.0f)
+                                       : 1.0f;
+  }
   SurfaceHit surface(const Hit& hit) const;
   // How the surface scatters there. `rng` decides between mixed materials.
   Shading shade(const SurfaceHit& surface, HashStream& rng) const;
@@ -60,6 +75,8 @@ class Scene {
   TextureTable textures;
   std::vector<Light> lights;
   std::vector<uint32_t> triangle_lights;  // of the triangles of emitting meshes, mesh by mesh
+  bool has_holes = false;                 // any surface
+  std::vector<FloatSource> light_alphas;  // by light; only as long as the last that has holes
   std::vector<uint32_t> infinite_lights;  // those that rays can find
   LightData light_data;
   PowerLightSampler light_sampler;
@@ -68,6 +85,13 @@ class Scene {
   std::unique_ptr<Accelerator> accelerator;
   Vec3d origin;  // world position that was moved to (0, 0, 0)
   SceneSummary summary;
+
+ private:
+  const SurfaceBinding& binding_of(const Hit& hit) const {
+    return hit.geometry == kQuadricGeometry ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
+  }
+  bool is_hole(const Ray& ray, const Hit& hit) const;
+  bool find_solid(Ray ray, Hit& hit) const;
 };
 
 }  // namespace etd

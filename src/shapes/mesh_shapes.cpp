@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/obj.h"
+#include "shapes/alpha.h"
 
 namespace etd {
 
@@ -17,7 +18,8 @@ const ModelDecl& trianglemesh_decl() {
         .array = true,
         .doc = "Three vertices per triangle, from 0; may be left out for a single triangle."},
        {.name = "N", .type = ParamType::kNormal, .array = true, .doc = "A shading normal per vertex."},
-       {.name = "uv", .type = ParamType::kPoint2, .array = true, .doc = "Texture coordinates per vertex."}}};
+       {.name = "uv", .type = ParamType::kPoint2, .array = true, .doc = "Texture coordinates per vertex."},
+       alpha_param()}};
   return d;
 }
 
@@ -36,7 +38,7 @@ const ModelDecl& plymesh_decl() {
   static const ModelDecl d{Family::kShape,
                            "plymesh",
                            "A mesh from a PLY file: ascii or binary, polygons of any size, normals, uv.",
-                           {file_param()}};
+                           {file_param(), alpha_param()}};
   return d;
 }
 
@@ -44,7 +46,7 @@ const ModelDecl& offmesh_decl() {
   static const ModelDecl d{Family::kShape,
                            "offmesh",
                            "A mesh from an OFF file: polygons of any size, normals, uv. Not in pbrt-v4.",
-                           {file_param()}};
+                           {file_param(), alpha_param()}};
   return d;
 }
 
@@ -57,7 +59,8 @@ const ModelDecl& objmesh_decl() {
        {.name = "materials",
         .type = ParamType::kBool,
         .default_value = true,
-        .doc = "Give faces the materials of the file's MTL; those that it does not name have the current one."}}};
+        .doc = "Give faces the materials of the file's MTL; those that it does not name have the current one."},
+       alpha_param()}};
   return d;
 }
 

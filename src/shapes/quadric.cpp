@@ -129,13 +129,13 @@ Quadric::Quadric(const Transform& unit_to_world, bool flip, const QuadricPart& w
   for (const Point3d corner : {box.lo, box.hi}) edge_slack = std::max(edge_slack, unit_error(*this, to_float(corner)));
 }
 
-std::optional<Quadric::Intersection> Quadric::intersect(Point3 o, Vec3 d, float t_max) const {
+std::optional<Quadric::Intersection> Quadric::intersect(Point3 o, Vec3 d, float t_max, float t_min) const {
   const Vec3d oo = point_in_double(to_object, as_vector(o));
   const Vec3d dd = vector_in_double(to_object, to_double(d));
   if (part.kind == Kind::kDisk) {
     const double t = -oo.z / dd.z;
     const float rounded = static_cast<float>(t);
-    if (!(rounded > 0.0f && rounded < t_max)) return {};  // also when dd.z is 0
+    if (!(rounded > t_min && rounded < t_max)) return {};  // also when dd.z is 0
     const Vec3d q{oo.x + t * dd.x, oo.y + t * dd.y, 0};
     if (!is_inside(part, edge_slack, q)) return {};
     return Intersection{rounded, to_float(q)};
@@ -157,7 +157,7 @@ std::optional<Quadric::Intersection> Quadric::intersect(Point3 o, Vec3 d, float 
   const double roots[2] = {std::min(t_far_from_zero, t_other), std::max(t_far_from_zero, t_other)};
   for (int i = 0; i < 2; ++i) {
     const float t = static_cast<float>(roots[i]);
-    if (!(t > 0.0f && t < t_max)) continue;
+    if (!(t > t_min && t < t_max)) continue;
     Vec3d q = nearest + dd * (std::sqrt(h2 / a) * (i == 0 ? -1.0 : 1.0));
     const double scale = 1.0 / std::sqrt(dot_across(q, q));
     q = {q.x * scale, q.y * scale, k == 0.0 ? q.z : q.z * scale};

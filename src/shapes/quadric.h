@@ -44,8 +44,8 @@ struct Quadric {
     float t;
     Vec3 q;  // unit-shape point that was hit
   };
-  // The nearest intersection with 0 < t < t_max along o + t d, all roots tried; robust for far and tiny shapes.
-  std::optional<Intersection> intersect(Point3 o, Vec3 d, float t_max) const;
+  // The nearest intersection with t_min < t < t_max along o + t d, all roots tried; robust for far and tiny shapes.
+  std::optional<Intersection> intersect(Point3 o, Vec3 d, float t_max, float t_min = 0) const;
 
   Point3 point(Vec3 q) const { return to_world.point({q.x, q.y, q.z}); }
   // Geometric normal at a unit-shape point, outward unless flipped.

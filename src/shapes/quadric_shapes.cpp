@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "shapes/alpha.h"
+
 namespace etd {
 
 namespace {
@@ -66,7 +68,8 @@ const ModelDecl& sphere_decl() {
       {radius_param("Radius."),
        {.name = "zmin", .unit = "m", .doc = "Where it begins along z; the lowest point if absent."},
        {.name = "zmax", .unit = "m", .doc = "Where it ends along z; the highest point if absent."},
-       phimax_param()}};
+       phimax_param(),
+       alpha_param()}};
   return d;
 }
 
@@ -77,7 +80,8 @@ const ModelDecl& cylinder_decl() {
                            {radius_param("Radius."),
                             {.name = "zmin", .default_value = -1.0, .unit = "m", .doc = "Where it begins along z."},
                             {.name = "zmax", .default_value = 1.0, .unit = "m", .doc = "Where it ends along z."},
-                            phimax_param()}};
+                            phimax_param(),
+                            alpha_param()}};
   return d;
 }
 
@@ -89,7 +93,8 @@ const ModelDecl& disk_decl() {
       {{.name = "height", .default_value = 0.0, .unit = "m", .doc = "Where it lies along z."},
        radius_param("Outer radius."),
        {.name = "innerradius", .default_value = 0.0, .min = 0, .unit = "m", .doc = "Radius of the hole."},
-       phimax_param()}};
+       phimax_param(),
+       alpha_param()}};
   return d;
 }
 

@@ -39,7 +39,8 @@ std::optional<Quadric::Intersection> intersect_quadric(const void* range_pointer
                                                        const RTCRay& ray) {
   const auto& range = *static_cast<const QuadricRange*>(range_pointer);
   const Quadric& quadric = range.quadrics[range.begin + primitive];
-  return quadric.intersect({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, next_up(ray.tfar));
+  return quadric.intersect({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, next_up(ray.tfar),
+                           next_down(ray.tnear));
 }
 
 // The unit-shape point travels to Accelerator::intersect in the place of Embree's normal. Rays come one at a time
@@ -60,11 +61,22 @@ void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
   if (intersect_quadric(args->geometryUserPtr, args->primID, ray)) ray.tfar = -kInfinity;
 }
 
-// The smallest distance Embree may report: it tests tnear <= t, we promise 0 < t, and work items flush denormals.
+// The smallest distance Embree may report: it tests tnear <= t, we promise t_min < t, and work items flush denormals.
 constexpr float kNearest = std::numeric_limits<float>::min();
 
 RTCRay to_embree(const Ray& r) {
-  return {r.o.x, r.o.y, r.o.z, kNearest, r.d.x, r.d.y, r.d.z, r.time, next_down(r.t_max), 0xffffffffu, 0, 0};
+  return {r.o.x,
+          r.o.y,
+          r.o.z,
+          r.t_min > 0.0f ? next_up(r.t_min) : kNearest,
+          r.d.x,
+          r.d.y,
+          r.d.z,
+          r.time,
+          next_down(r.t_max),
+          0xffffffffu,
+          0,
+          0};
 }
 
 }  // namespace
@@ -212,7 +224,7 @@ Accelerator::Accelerator(Accelerator&&) noexcept = default;
 Accelerator& Accelerator::operator=(Accelerator&&) noexcept = default;
 
 bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
-  if (!(ray.t_max > 0.0f)) return false;
+  if (!(ray.t_max > ray.t_min)) return false;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query;
@@ -240,7 +252,7 @@ bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
 }
 
 bool Accelerator::occluded(const Ray& ray) const {
-  if (!(ray.t_max > 0.0f)) return false;
+  if (!(ray.t_max > ray.t_min)) return false;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = to_embree(ray);

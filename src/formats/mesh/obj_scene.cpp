@@ -47,12 +47,21 @@ class ObjMaterials {
     return index_of_[name] = index;
   }
 
+  // Opacity as the shape's alpha, where there are holes: d, times its image. Glass is clear by itself.
+  std::optional<Param> alpha(const std::string& name) {
+    const ObjMaterial* m = obj_.find(name);
+    if (!m || is_glass(*m) || (m->d >= 1 && m->map_d.file.empty())) return {};
+    Param p = m->map_d.file.empty() ? number_param("alpha", {m->d})
+                                    : string_param("alpha", image(*m, m->map_d, m->d, true), ParamKind::kTexture);
+    p.loc = p.value_loc = loc_;
+    return p;
+  }
+
   // Names of materials that lose something.
-  std::vector<std::string> missing, glossy, dissolved, tinted;
+  std::vector<std::string> missing, glossy, tinted;
 
  private:
   ModelUse convert(const ObjMaterial& m) {
-    if (m.d < 1 && !is_glass(m)) dissolved.push_back(m.name);
     if (is_glass(m)) return use("dielectric", {number_param("eta", {m.ni > 1 ? m.ni : 1.5})});
     const bool has_diffuse = !is_black(m.kd) || !m.map_kd.file.empty();
     if (m.pm >= 0.5 || (!has_diffuse && !is_black(m.ks))) {
@@ -75,17 +84,22 @@ class ObjMaterials {
   Param diffuse(const ObjMaterial& m) {
     if (m.map_kd.file.empty()) return rgb_param("reflectance", m.kd);
     if (m.kd.x != m.kd.y || m.kd.y != m.kd.z) tinted.push_back(m.name);
-    const float mean = (m.kd.x + m.kd.y + m.kd.z) / 3;
-    const std::string name = fmt::format("{}: {}: {}", file_.string(), m.name, m.map_kd.file.string());
+    const double mean = (double(m.kd.x) + m.kd.y + m.kd.z) / 3;
+    return string_param("reflectance", image(m, m.map_kd, mean > 0 ? mean : 1.0, false), ParamKind::kTexture);
+  }
+
+  // Adds a texture of the image times a factor, and returns its name.
+  std::string image(const ObjMaterial& m, const ObjMap& map, double scale, bool is_float) {
+    const std::string name = fmt::format("{}: {}: {}", file_.string(), m.name, map.file.string());
     scene_.textures.push_back(
-        {name, false,
-         use("imagemap",
-             {string_param("filename", (file_.parent_path() / m.map_kd.file).string()),
-              number_param("scale", {mean > 0 ? mean : 1.0}), number_param("uscale", {m.map_kd.scale.x}),
-              number_param("vscale", {m.map_kd.scale.y}), number_param("udelta", {m.map_kd.offset.x}),
-              number_param("vdelta", {m.map_kd.offset.y}), string_param("wrap", m.map_kd.clamp ? "black" : "repeat")}),
+        {name, is_float,
+         use("imagemap", {string_param("filename", (file_.parent_path() / map.file).string()),
+                          number_param("scale", {scale}), number_param("uscale", {map.scale.x}),
+                          number_param("vscale", {map.scale.y}), number_param("udelta", {map.offset.x}),
+                          number_param("vdelta", {map.offset.y}), string_param("wrap", map.clamp ? "black" : "repeat"),
+                          string_param("encoding", is_float ? "linear" : "sRGB")}),
          Transform()});
-    return string_param("reflectance", name, ParamKind::kTexture);
+    return name;
   }
 
   const ObjResult& obj_;
@@ -102,7 +116,6 @@ void note_losses(const ObjMaterials& materials, SourceLoc loc, const std::string
   note(materials.missing, "materials that no MTL file has, the current one is used");
   note(materials.glossy, "materials whose gloss (Ks) over a diffuse colour is left out");
   note(materials.tinted, "materials whose image is multiplied by the mean of their coloured Kd");
-  note(materials.dissolved, "materials whose opacity (d) is left out");
 }
 
 }  // namespace
@@ -135,6 +148,11 @@ std::vector<ShapeDesc> add_obj(ObjResult obj, const std::filesystem::path& file,
     ShapeDesc shape = like;
     shape.use = trianglemesh_use(std::exchange(part.mesh, {}), loc);
     if (const int index = materials.index(part.material); index >= 0) shape.material = index;
+    // The shape's own alpha is for all of it.
+    if (const Param* given = like.use.find("alpha"))
+      shape.use.params.push_back(*given);
+    else if (std::optional<Param> alpha = materials.alpha(part.material))
+      shape.use.params.push_back(std::move(*alpha));
     if (const ObjMaterial* m = obj.find(part.material); m && !is_black(m->ke)) {
       shape.area_light = static_cast<int>(scene.area_lights.size());
       ModelUse light{"diffuse", {rgb_param("L", m->ke)}, loc};

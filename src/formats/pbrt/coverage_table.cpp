@@ -64,7 +64,6 @@ std::span<const UnsupportedModel> unsupported_models() {
 
 std::span<const UnsupportedParam> unsupported_params() {
   static const std::vector<UnsupportedParam> table = {
-      {Family::kShape, "", "alpha", "1", "an opaque surface"},
       {Family::kShape, "trianglemesh", "S", "", "tangents from the texture coordinates"},
       {Family::kShape, "trianglemesh", "faceIndices", "*", "only ptex textures read it"},
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
