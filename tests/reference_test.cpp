@@ -169,11 +169,17 @@ TEST(StatisticalReference, GreyVeachMis) { compare_grey("veach-mis", 64, 0.015);
 TEST(StatisticalReference, GreyVeachAjar) { compare_grey("veach-ajar", 16, 0.015); }
 TEST(StatisticalReference, ColouredCornellBox) { compare_coloured("cornell-box", 16, 0.005); }
 TEST(StatisticalReference, ColouredVeachMis) { compare_coloured("veach-mis", 32, 0.03); }
+TEST(StatisticalReference, GreyTeapot) { compare_grey("teapot", 16, 0.01); }
+TEST(StatisticalReference, ColouredTeapot) { compare_coloured("teapot", 16, 0.02); }
 TEST(StatisticalReference, ColouredVeachAjar) { compare_coloured("veach-ajar", 16, 0.02); }
 
 TEST(SlowReference, GreyCornellBox) { compare_grey("cornell-box", 512, 0.0005); }
 TEST(SlowReference, GreyVeachMis) { compare_grey("veach-mis", 2048, 0.002); }
 TEST(SlowReference, GreyVeachAjar) { compare_grey("veach-ajar", 1024, 0.002); }
+TEST(SlowReference, GreyTeapot) { compare_grey("teapot", 512, 0.001); }
+TEST(SlowReference, GreyClassroom) { compare_grey("classroom", 256, 0.01); }
+TEST(SlowReference, ColouredTeapot) { compare_coloured("teapot", 512, 0.002); }
+TEST(SlowReference, ColouredClassroom) { compare_coloured("classroom", 256, 0.01); }
 TEST(SlowReference, ColouredCornellBox) { compare_coloured("cornell-box", 512, 0.001); }
 TEST(SlowReference, ColouredVeachMis) { compare_coloured("veach-mis", 1024, 0.005); }
 TEST(SlowReference, ColouredVeachAjar) { compare_coloured("veach-ajar", 1024, 0.005); }
