@@ -99,6 +99,11 @@ TEST(Quadric, ParametrisationIsThatOfTheFormat) {
       ASSERT_NEAR(s.uv.x, phi / part.phi_max, 1e-5f);
       ASSERT_LT(length((quadric.point(turned) - s.p) * (1 / du) - s.dpdu), 0.05f * (0.01f + length(s.dpdu)));
       ASSERT_NEAR(dot(s.ng, s.dpdu), 0, 1e-4f);
+      ASSERT_NEAR(dot(s.ng, s.dpdv), 0, 1e-4f * (1 + length(s.dpdv)));
+      if (s.uv.y < 0.99f && s.uv.y > 0.05f) {
+        const SurfacePoint up = quadric_point(quadric, quadric.unit_point(s.p + s.dpdv * 1e-3f));
+        ASSERT_NEAR((up.uv.y - s.uv.y) / 1e-3f, 1, 0.02f);
+      }
       ASSERT_NEAR(length(s.ng), 1, 1e-5f);
       ASSERT_LT(length(quadric.unit_point(s.p) - q), 1e-5f);
     }

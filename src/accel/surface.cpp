@@ -34,6 +34,7 @@ SurfacePoint to_world(const SurfacePoint& s, const GeometryInstance& instance) {
   w.ns = s.ns == s.ng ? w.ng : normalize(instance.to_object.transposed(s.ns));
   w.ng = face_forward(w.ng, w.ns);
   w.dpdu = m.vector(s.dpdu);
+  w.dpdv = m.vector(s.dpdv);
   return w;
 }
 

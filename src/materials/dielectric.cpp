@@ -9,7 +9,7 @@ const ModelDecl& DielectricMaterial::decl() {
                 "Glass: reflects and refracts as Fresnel says, smooth or with GGX microfacets.",
                 {clear_index_param("eta", "Index of refraction inside over outside")}};
     m = with_params(m, RoughnessSource::params("", 0.0, "of the surface"));
-    return with_params(m, {remap_param()});
+    return with_detail(with_params(m, {remap_param()}));
   }();
   return d;
 }

@@ -3,6 +3,7 @@
 
 #include "bsdfs/lambert.h"
 #include "materials/material.h"
+#include "materials/parameters.h"
 
 namespace etd {
 
@@ -10,16 +11,16 @@ struct DiffuseMaterial {
   SpectrumSource reflectance;
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{Family::kMaterial,
-                             "diffuse",
-                             "Reflects the same radiance to all directions, on both sides.",
-                             {{.name = "reflectance",
-                               .type = ParamType::kSpectrumTexture,
-                               .default_value = 0.5,
-                               .min = 0,
-                               .max = 1,
-                               .clamp = true,
-                               .doc = "Share of the light that is reflected."}}};
+    static const ModelDecl d = with_detail({Family::kMaterial,
+                                            "diffuse",
+                                            "Reflects the same radiance to all directions, on both sides.",
+                                            {{.name = "reflectance",
+                                              .type = ParamType::kSpectrumTexture,
+                                              .default_value = 0.5,
+                                              .min = 0,
+                                              .max = 1,
+                                              .clamp = true,
+                                              .doc = "Share of the light that is reflected."}}});
     return d;
   }
   static DiffuseMaterial create(const ParamReader& p, TextureBuilder& b) { return {b.spectrum(p, "reflectance")}; }

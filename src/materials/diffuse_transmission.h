@@ -3,6 +3,7 @@
 
 #include "bsdfs/diffuse_transmission.h"
 #include "materials/material.h"
+#include "materials/parameters.h"
 
 namespace etd {
 
@@ -11,25 +12,25 @@ struct DiffuseTransmissionMaterial {
   float scale = 1;
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{
-        Family::kMaterial,
-        "diffusetransmission",
-        "A thin sheet with diffuse reflection and diffuse transmission.",
-        {{.name = "reflectance",
-          .type = ParamType::kSpectrumTexture,
-          .default_value = 0.25,
-          .min = 0,
-          .max = 1,
-          .clamp = true,
-          .doc = "Share of the light that is reflected."},
-         {.name = "transmittance",
-          .type = ParamType::kSpectrumTexture,
-          .default_value = 0.25,
-          .min = 0,
-          .max = 1,
-          .clamp = true,
-          .doc = "Share of the light that passes; where both exceed 1 together, they are scaled to 1."},
-         {.name = "scale", .default_value = 1.0, .min = 0, .doc = "Factor on both."}}};
+    static const ModelDecl d =
+        with_detail({Family::kMaterial,
+                     "diffusetransmission",
+                     "A thin sheet with diffuse reflection and diffuse transmission.",
+                     {{.name = "reflectance",
+                       .type = ParamType::kSpectrumTexture,
+                       .default_value = 0.25,
+                       .min = 0,
+                       .max = 1,
+                       .clamp = true,
+                       .doc = "Share of the light that is reflected."},
+                      {.name = "transmittance",
+                       .type = ParamType::kSpectrumTexture,
+                       .default_value = 0.25,
+                       .min = 0,
+                       .max = 1,
+                       .clamp = true,
+                       .doc = "Share of the light that passes; where both exceed 1 together, they are scaled to 1."},
+                      {.name = "scale", .default_value = 1.0, .min = 0, .doc = "Factor on both."}}});
     return d;
   }
   static DiffuseTransmissionMaterial create(const ParamReader& p, TextureBuilder& b) {

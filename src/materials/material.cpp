@@ -64,7 +64,10 @@ std::span<const ModelDecl* const> material_models() {
 namespace {
 template <class T>
 Material make(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics) {
-  return Material(T::create({T::decl(), use, diagnostics}, textures));
+  const ParamReader params(T::decl(), use, diagnostics);
+  Material material(T::create(params, textures));
+  material.detail = SurfaceDetail::create(params, textures);
+  return material;
 }
 }  // namespace
 

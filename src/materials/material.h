@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bsdfs/bsdf.h"
+#include "materials/surface_detail.h"
 #include "textures/resolve.h"
 
 namespace etd {
@@ -24,6 +25,12 @@ class Material {
                           HashStream& rng) const;
   // The materials that this one refers to, as indices.
   std::span<const uint32_t> children() const;
+  // The frame in which the closure scatters at a point.
+  Frame frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const {
+    return detail.frame(point, at, textures);
+  }
+
+  SurfaceDetail detail;
 
  private:
   TaggedStorage<240> storage_;

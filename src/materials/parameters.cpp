@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "materials/surface_detail.h"
 #include "spectrum/named.h"
 
 namespace etd {
@@ -53,6 +54,8 @@ float clear_index(const ParamReader& p, std::string_view name) {
                                 "the mean of the three");
   return mean_value(value);
 }
+
+ModelDecl with_detail(ModelDecl decl) { return with_params(std::move(decl), SurfaceDetail::params()); }
 
 ModelDecl with_params(ModelDecl decl, const std::vector<ParamDecl>& more) {
   decl.params.insert(decl.params.end(), more.begin(), more.end());

@@ -23,6 +23,8 @@ ParamDecl remap_param();
 ParamDecl clear_index_param(const std::string& name, const std::string& doc);
 float clear_index(const ParamReader& p, std::string_view name);
 
+// A declaration with what every material has (materials/surface_detail.h).
+ModelDecl with_detail(ModelDecl decl);
 // Appends parameters to a declaration.
 ModelDecl with_params(ModelDecl decl, const std::vector<ParamDecl>& more);
 

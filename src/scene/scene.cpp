@@ -49,7 +49,7 @@ SurfaceHit Scene::surface(const Hit& hit) const {
 Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
   const TexCoord at{surface.point.uv};
   const Material& material = surface.material->resolve(at, textures, materials, rng);
-  return {material.closure(at, textures), Frame::from_z_tangent(surface.point.ns, surface.point.dpdu)};
+  return {material.closure(at, textures), material.frame(surface.point, at, textures)};
 }
 
 size_t Scene::geometry_bytes() const {

@@ -206,18 +206,23 @@ SurfacePoint quadric_point(const Quadric& quadric, Vec3 hit) {
   s.p_error = 0x1p-22f * (dot(per_axis, size) + 1.0f) / length(to_object.transposed(n));
 
   const float r = std::sqrt(q.x * q.x + q.y * q.y);
+  Vec3 dqdv;  // on the unit shape
   s.uv.x = std::min(azimuth(q.x, q.y) / part.phi_max, 1.0f);
   if (part.kind == Kind::kSphere) {
     // theta from its tangent: acos(z) would lose half the digits near the poles.
     const float theta = std::atan2(r, q.z);
     const float theta_lo = part.lo > -1 ? std::acos(part.lo) : kPi, theta_hi = part.hi < 1 ? std::acos(part.hi) : 0.0f;
     s.uv.y = (theta_lo - theta) / (theta_lo - theta_hi);
+    if (r > 0.0f) dqdv = Vec3{-q.z * q.x / r, -q.z * q.y / r, r} * (theta_lo - theta_hi);
   } else if (part.kind == Kind::kCylinder) {
     s.uv.y = (q.z - part.lo) / (part.hi - part.lo);
+    dqdv.z = part.hi - part.lo;
   } else {
     s.uv.y = (part.hi - r) / (part.hi - part.lo);
+    if (r > 0.0f) dqdv = Vec3{-q.x / r, -q.y / r, 0.0f} * (part.hi - part.lo);
   }
   s.dpdu = quadric.to_world.vector({-part.phi_max * q.y, part.phi_max * q.x, 0.0f});
+  s.dpdv = quadric.to_world.vector(dqdv);
   return s;
 }
 

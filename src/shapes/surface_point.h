@@ -10,7 +10,8 @@ struct SurfacePoint {
   float p_error = 0;  // how far along ng a ray origin must move to be safely off the surface; same units as p
   Vec3 ng, ns;        // unit geometric and shading normal, ng on the side of ns
   Vec2 uv;
-  Vec3 dpdu;  // along growing u, not normalised; zero where the parametrisation has none (poles, zero area)
+  // Along growing u and v, not normalised; zero where the parametrisation has none (poles, zero area).
+  Vec3 dpdu, dpdv;
 };
 
 // The origin of a ray that leaves `s` towards w: p moved by p_error along ng to w's side, every coordinate then rounded

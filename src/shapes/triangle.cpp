@@ -69,12 +69,13 @@ Vec3 blend_normals(const Mesh& mesh, const std::array<uint32_t, 3>& index, Vec3 
   return l > 0.0f && std::isfinite(l) ? sum * (1.0f / l) : face;
 }
 
-// uv and dp/du. Solves (p1 - p0, p2 - p0) = (dpdu, dpdv) (uv1 - uv0, uv2 - uv0); where the uvs span no area, dp/du is
-// that of the default parametrisation.
+// uv, dp/du and dp/dv. Solves (p1 - p0, p2 - p0) = (dpdu, dpdv) (uv1 - uv0, uv2 - uv0); where the uvs span no area,
+// they are those of the default parametrisation.
 void set_parametrisation(const Mesh& mesh, const std::array<uint32_t, 3>& index, const Face& f, Vec3 b,
                          SurfacePoint& s) {
   const Vec3d e1 = f.p[1] - f.p[0], e2 = f.p[2] - f.p[0];
   s.dpdu = to_float(e1);
+  s.dpdv = to_float(e2 - e1);
   if (mesh.uvs.empty()) {
     s.uv = {b.y + b.z, b.z};
     return;
@@ -86,7 +87,8 @@ void set_parametrisation(const Mesh& mesh, const std::array<uint32_t, 3>& index,
   const double det = u1 * v2 - u2 * v1;
   if (det == 0.0) return;
   const Vec3 dpdu = to_float((e1 * v2 - e2 * v1) * (1.0 / det));
-  if (is_finite(dpdu) && !(dpdu == Vec3{})) s.dpdu = dpdu;
+  const Vec3 dpdv = to_float((e2 * u1 - e1 * u2) * (1.0 / det));
+  if (is_finite(dpdu) && is_finite(dpdv) && !(dpdu == Vec3{})) s.dpdu = dpdu, s.dpdv = dpdv;
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ class TextureBuilder {
 
   SpectrumSource spectrum(const ParamReader& params, std::string_view name) const;
   FloatSource number(const ParamReader& params, std::string_view name) const;
+  // A texture of the table that shows an image over uv, bilinear and repeated; -1 and an error when it can't be read.
+  int32_t image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
   // Index of an image of the table, read once per file and encoding; -1 and an error when it can't be read.
   int32_t image(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
   const Image& image_at(int32_t index) const { return table_.images[static_cast<size_t>(index)]; }

@@ -41,6 +41,14 @@ std::span<const ModelDecl* const> texture_models() {
   return all;
 }
 
+int32_t TextureBuilder::image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics) {
+  ImageMapTexture texture;
+  texture.image = image(filename, encoding, diagnostics);
+  if (texture.image < 0) return -1;
+  table_.textures.push_back(Texture(texture));
+  return static_cast<int32_t>(table_.textures.size()) - 1;
+}
+
 void TextureBuilder::add(const std::string& name, bool is_float, const ModelUse& use, Diagnostics& diagnostics) {
   inside_float_ = is_float;
   Texture texture(ConstantTexture{Spectrum(0.5f)});

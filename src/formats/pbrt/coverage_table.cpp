@@ -69,9 +69,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
 
-      {Family::kMaterial, "", "displacement", "0", "the surface without bumps"},
-      {Family::kMaterial, "", "normalmap", "", "the surface's own normals"},
-
       {Family::kTexture, "", "mapping", "uv", "the uv mapping"},
       {Family::kTexture, "", "v1", "*", "only the planar mapping reads it"},
       {Family::kTexture, "", "v2", "*", "only the planar mapping reads it"},

@@ -1,0 +1,64 @@
+#include "materials/surface_detail.h"
+
+namespace etd {
+
+std::vector<ParamDecl> SurfaceDetail::params() {
+  return {{.name = "displacement",
+           .type = ParamType::kFloatTexture,
+           .default_value = 0.0,
+           .doc = "Height of bumps above the surface, in its units: tilts the shading normal, moves nothing."},
+          {.name = "normalmap",
+           .type = ParamType::kString,
+           .doc = "Image of normals in the frame of u, v and the shading normal, as (n + 1) / 2."}};
+}
+
+SurfaceDetail SurfaceDetail::create(const ParamReader& p, TextureBuilder& b) {
+  SurfaceDetail d;
+  d.displacement = b.number(p, "displacement");
+  if (const Param* file = p.given("normalmap")) {
+    d.normal_map = b.image_texture(*file, "linear", p.diagnostics());
+    if (d.displacement.texture >= 0)
+      p.diagnostics().warning(file->loc, "a material with a normal map ignores its \"displacement\"");
+  }
+  return d;
+}
+
+namespace {
+
+// Steps over uv for differences; small beside texels, large beside the rounding of uv.
+constexpr float kStep = 5e-4f;
+
+// The normal of the surface moved by d along n is along n - grad d, where grad is taken along the surface (Blinn 1978;
+// d times the surface's curvature is left out).
+Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) {
+  const Vec3 n = point.ns;
+  const float area = dot(n, cross(point.dpdu, point.dpdv));
+  if (area == 0.0f) return n;
+  TexCoord beside = at, above = at;
+  beside.uv.x += kStep;
+  above.uv.y += kStep;
+  const float d = textures.eval(height, at);
+  const float d_u = (textures.eval(height, beside) - d) / kStep, d_v = (textures.eval(height, above) - d) / kStep;
+  const Vec3 gradient = (cross(point.dpdv, n) * d_u + cross(n, point.dpdu) * d_v) * (1.0f / area);
+  return is_finite(gradient) ? normalize(n - gradient) : n;
+}
+
+}  // namespace
+
+Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const {
+  const Frame plain = Frame::from_z_tangent(point.ns, point.dpdu);
+  Vec3 n = point.ns;
+  if (normal_map >= 0) {
+    const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at);
+    const Vec3 local{2.0f * rgb[0] - 1.0f, 2.0f * rgb[1] - 1.0f, 2.0f * rgb[2] - 1.0f};
+    if (!(dot(local, local) > 1e-8f)) return plain;
+    n = normalize(plain.to_world(local));
+  } else if (displacement.texture >= 0) {
+    n = bumped(displacement, point, at, textures);
+  } else {
+    return plain;
+  }
+  return Frame::from_z_tangent(face_forward(n, point.ng), point.dpdu);
+}
+
+}  // namespace etd
