@@ -130,16 +130,19 @@ TEST(Compile, EmittersInObjectsBecomeLightsOfTheWorld) {
 TEST(Compile, LightsOfMeshesFollowTheirTriangles) {
   const auto scene = scene_of(
       "Shape \"sphere\" " + kLight +
-      "Shape \"trianglemesh\" \"point3 P\" [ 0 0 5  1 0 5  1 1 5  0 1 5 ] \"integer indices\" [ 0 1 2 0 2 3 ]\n"
+      "Shape \"trianglemesh\" \"point3 P\" [ 0 0 5  1 0 5  1 1 5  0.2 1 5 ] \"integer indices\" [ 0 1 2 0 2 3 ]\n"
+      "Shape \"trianglemesh\" \"point3 P\" [ 2 0 5  3 0 5  3 1 5  2 1 5 ] \"integer indices\" [ 0 1 2 0 2 3 ]\n"
       "Translate 0 0 9 Shape \"sphere\" \"float radius\" 0.5");
-  ASSERT_EQ(scene->lights.size(), 3u);
-  const auto lower = look(*scene, {0.75, 0.25, 6}, {0, 0, -1}), upper = look(*scene, {0.25, 0.75, 6}, {0, 0, -1});
+  ASSERT_EQ(scene->lights.size(), 4u);  // the square is one
+  const auto at = [&](double x, double y) { return look(*scene, {x, y, 6}, {0, 0, -1}); };
+  const auto lower = at(0.75, 0.25), upper = at(0.3, 0.75), half = at(2.75, 0.25), other_half = at(2.25, 0.75);
   const auto ball = look(*scene, {0, 0, 20}, {0, 0, -1}), dark = look(*scene, {0, 0, -20}, {0, 0, 1});
-  ASSERT_TRUE(lower && upper && ball && dark);
+  ASSERT_TRUE(lower && upper && half && other_half && ball && dark);
   EXPECT_NE(lower->light, upper->light);
+  EXPECT_EQ(half->light, other_half->light);
   EXPECT_EQ(dark->light, kNoId);
-  for (const auto& hit : {*lower, *upper, *ball}) {
-    ASSERT_LT(hit.light, 3u);
+  for (const auto& hit : {*lower, *upper, *half, *ball}) {
+    ASSERT_LT(hit.light, 4u);
     EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, 1})[0], 2.0f);
     EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, -1})[0], 0.0f);
     EXPECT_GT(scene->lights[hit.light].pdf_li({0, 0, 30}, normalize(hit.point.p - Point3{0, 0, 30}), &hit.point), 0.0f);

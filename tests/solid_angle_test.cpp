@@ -1,5 +1,5 @@
-// Solid angles in closed form, and samples that are uniform in them: the Jacobian of a warp from the square to directions
-// is the solid angle everywhere, which needs no statistics.
+// Solid angles in closed form, and samples that are uniform in them: the Jacobian of a warp from the square to
+// directions is the solid angle everywhere, which needs no statistics.
 #include "core/solid_angle.h"
 
 #include <gtest/gtest.h>
@@ -46,8 +46,7 @@ TEST(SphericalRectangle, IsTwoTriangles) {
     const Vec3d x = t.vector({0.1 + std::abs(number()), 0, 0}), y = t.vector({0, 0.1 + std::abs(number()), 0});
     const Point3d o = t.point({number(), number(), 0.05 + std::abs(number())});
     const Point3d one[3] = {o, o + x, o + y}, two[3] = {o + x, o + x + y, o + y};
-    const double sum =
-        SphericalTriangle(kOrigin, one).solid_angle() + SphericalTriangle(kOrigin, two).solid_angle();
+    const double sum = SphericalTriangle(kOrigin, one).solid_angle() + SphericalTriangle(kOrigin, two).solid_angle();
     EXPECT_NEAR(SphericalRectangle(kOrigin, o, x, y).solid_angle(), sum, 1e-12);
   }
 }
@@ -95,7 +94,8 @@ TEST(SphericalCap, SamplesAreUniformAndOnTheNearSide) {
     const Point3d center = kOrigin + normalize(Vec3d{1, -2, 0.5}) * distance;
     const auto cap = SphericalCap::seen_from(kOrigin, center, 1.0);
     ASSERT_TRUE(cap);
-    EXPECT_NEAR(cap->solid_angle(), 2 * kPiD * (1 - std::sqrt(1 - 1 / sqr(distance))), 1e-8 * cap->solid_angle() + 1e-15);
+    EXPECT_NEAR(cap->solid_angle(), 2 * kPiD * (1 - std::sqrt(1 - 1 / sqr(distance))),
+                1e-8 * cap->solid_angle() + 1e-15);
     const auto direction = [&](Vec2 u) { return normalize(center + cap->sample_normal(u) - kOrigin); };
     for_jacobians(direction, [&](Vec2 u, double jacobian) {
       EXPECT_NEAR(jacobian / cap->solid_angle(), 1.0, 2e-3) << distance << ": " << u.x << " " << u.y;
@@ -158,10 +158,10 @@ TEST(RectangleSurface, IsFoundHoweverItIsSplit) {
 
 TEST(RectangleSurface, IsNotSeenInOtherQuads) {
   const std::array<uint32_t, 3> a{0, 1, 2}, b{0, 2, 3};
-  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 1, 0}}, a, b));            // parallelogram
-  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1.5f, 0}}, a, b));         // trapezoid
-  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0.01f}}, a, b));        // bent
-  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {0, 0, 0}, {2, 1, 0}, {0, 1, 0}}, a, b));            // a triangle and nothing
+  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 1, 0}}, a, b));      // parallelogram
+  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1.5f, 0}}, a, b));   // trapezoid
+  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0.01f}}, a, b));  // bent
+  EXPECT_FALSE(is_rectangle({{0, 0, 0}, {0, 0, 0}, {2, 1, 0}, {0, 1, 0}}, a, b));      // a triangle and nothing
 }
 
 }  // namespace

@@ -13,10 +13,10 @@
 namespace etd {
 
 namespace {
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
-                        DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
-                        ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
-                        PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+using Lights =
+    TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>, DiffuseAreaLight<QuadricSurface>,
+             ConstantInfiniteLight, ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
+             PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
 
 template <class T>

@@ -96,8 +96,7 @@ std::optional<RectangleSurface::View> RectangleSurface::seen_from(Point3 p) cons
   return View{*this, seen};
 }
 
-QuadricSurface::QuadricSurface(const Quadric& quadric)
-    : quadric_(&quadric), ball_radius_(length(quadric.to_world.x)) {
+QuadricSurface::QuadricSurface(const Quadric& quadric) : quadric_(&quadric), ball_radius_(length(quadric.to_world.x)) {
   const Affine& m = quadric.to_world;
   const float r2 = sqr(ball_radius_), tolerance = 1e-5f * r2;
   const auto differ = [tolerance](float a, float b) { return !(std::abs(a - b) <= tolerance); };
