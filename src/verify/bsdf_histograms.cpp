@@ -129,7 +129,11 @@ std::array<double, 3> check_setting(const ScatterModel& m, const Setting& t, siz
   for (int lane = 0; lane < 3; ++lane) {
     const RunningStats& w = histogram.weight(lane);
     const double expected_mean = integrals.f[static_cast<size_t>(lane)];
-    const double error = std::sqrt(w.variance_of_mean() + sqr(kIntegrationError * std::max(expected_mean, w.mean())));
+    // Where samples rarely succeed, too few of them tell their own variance; it is at least that of a weight which is
+    // the same whenever a sample succeeds.
+    const double least = p > 0.0 ? sqr(expected_mean) * (1.0 / p - 1.0) / n : 0.0;
+    const double error =
+        std::sqrt(std::max(w.variance_of_mean(), least) + sqr(kIntegrationError * std::max(expected_mean, w.mean())));
     const double z = error > 0.0 ? (w.mean() - expected_mean) / error : 0.0;
     c.mean.add(z, normal_two_sided(z), [&] {
       return fmt::format("{}, lane {}: integral of eval_cos {:.6f}, mean weight {:.6f}", where, lane, expected_mean,
