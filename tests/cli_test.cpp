@@ -179,7 +179,7 @@ TEST_F(Cli, TonemapsWhatWasRendered) {
   EXPECT_EQ(text(folder_.path() / "a.png"), text(folder_.path() / "b.png"));
   for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
            {"a.exr x.png --layer dirct", "did you mean \"direct\"?"},
-           {"a.hdr x.png --layer direct", "only .exr files have layers"},
+           {"a.hdr x.png --layer direct", "the file has no layers"},
            {"a.exr x.hdr", "ends in .png, .jpg or .jpeg"},
            {"a.exr absent/x.png", "cannot write absent/x.png"},
            {"absent.exr x.png", "absent.exr: the file does not exist"},

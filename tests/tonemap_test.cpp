@@ -99,26 +99,5 @@ TEST(WhiteBalance, GreyWorldMakesTheMeanGrey) {
   EXPECT_FALSE(grey_world_balance(std::vector<float>{1, -0.1f, 1}));
 }
 
-TEST(LayerRgb, ShowColoursVectorsAndSingleNumbers) {
-  LayeredImage image;
-  image.width = image.height = 1;
-  image.channels = {"G", "B", "R", "normal.Z", "normal.X", "normal.Y", "depth.Z", "a.b.R", "a.b.G", "pair.U", "pair.V"};
-  image.pixels = {2, 3, 1, 6, 4, 5, 7, 8, 9, 10, 11};
-  EXPECT_EQ(layer_rgb(image, "").rgb, (std::vector<float>{1, 2, 3}));
-  EXPECT_EQ(layer_rgb(image, "normal").rgb, (std::vector<float>{4, 5, 6}));
-  EXPECT_EQ(layer_rgb(image, "depth").rgb, (std::vector<float>{7, 7, 7}));
-  for (const auto& [layer, message] :
-       std::vector<std::pair<const char*, const char*>>{{"norml", "did you mean \"normal\"?"},
-                                                        {"xyz", "valid: normal, depth, a.b, pair"},
-                                                        {"pair", "not the channels of a picture"},
-                                                        {"a.b", "not the channels of a picture"}}) {
-    const LayerResult none = layer_rgb(image, layer);
-    EXPECT_NE(none.error.find(message), std::string::npos) << none.error;
-    EXPECT_TRUE(none.rgb.empty());
-  }
-  image.channels = {"Y"}, image.pixels = {5};
-  EXPECT_EQ(layer_rgb(image, "").rgb, (std::vector<float>{5, 5, 5}));
-}
-
 }  // namespace
 }  // namespace etd

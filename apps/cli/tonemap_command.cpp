@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "commands.h"
-#include "io/image.h"
+#include "io/picture.h"
 #include "render/tonemap.h"
 #include "spectrum/color_space.h"
 #include "spectrum/white_balance.h"
@@ -29,27 +29,6 @@ constexpr const char* kExamples =
 int fail(const std::string& message) {
   fmt::print(stderr, "etendue: {}\n", message);
   return kBadInput;
-}
-
-// A file's picture, or a layer of one that has them.
-LayeredImage read_picture(const std::string& path, const std::string& layer, std::string& error) {
-  if (is_layered_path(path)) {
-    LayersResult read = read_layers(path);
-    error = read.error;
-    return read.image ? std::move(*read.image) : LayeredImage();
-  }
-  const ImageResult read = read_image(path);
-  error = read.error;
-  if (!read.image) return {};
-  if (!layer.empty()) error = "only .exr files have layers";
-  const Image& from = *read.image;
-  LayeredImage image;
-  image.width = from.width(), image.height = from.height();
-  image.channels = {"R", "G", "B"};
-  for (int y = 0; y < from.height(); ++y)
-    for (int x = 0; x < from.width(); ++x)
-      for (int c = 0; c < 3; ++c) image.pixels.push_back(from.texel(x, y, from.channels() == 1 ? 0 : c));
-  return image;
 }
 
 // "auto", or a temperature as in "5000" or "5000K", of this picture. Returns what is wrong, or an empty string.
@@ -76,10 +55,9 @@ int tonemap(const Arguments& args) {
   if (const std::string problem = check_output_path(args.output); !problem.empty())
     return fail(fmt::format("cannot write {}: {}", args.output, problem));
 
-  std::string error;
-  const LayeredImage image = read_picture(args.input, args.layer, error);
-  if (!error.empty()) return fail(fmt::format("{}: {}", args.input, error));
-  LayerResult picture = layer_rgb(image, args.layer);
+  const LayersResult read = read_any_layers(args.input);
+  if (!read.image) return fail(fmt::format("{}: {}", args.input, read.error));
+  LayerResult picture = layer_rgb(*read.image, args.layer);
   if (!picture.error.empty()) return fail(fmt::format("{}: {}", args.input, picture.error));
   ToneMapping mapping;
   mapping.exposure = args.exposure;
@@ -89,7 +67,8 @@ int tonemap(const Arguments& args) {
 
   if (const size_t bad = tone_map(picture.rgb, mapping); bad > 0)
     fmt::print(stderr, "etendue: warning: {} of the pixels are not numbers; they are black\n", bad);
-  if (const std::string problem = write_rgb(args.output, image.width, image.height, picture.rgb); !problem.empty()) {
+  if (const std::string problem = write_rgb(args.output, read.image->width, read.image->height, picture.rgb);
+      !problem.empty()) {
     fmt::print(stderr, "etendue: cannot write {}: {}\n", args.output, problem);
     return kInternalError;
   }

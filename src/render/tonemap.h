@@ -4,12 +4,8 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/vec.h"
-#include "io/image_write.h"
 
 namespace etd {
 
@@ -27,15 +23,6 @@ struct ToneMapping {
 // The light on the screen, in [0, 1] and linear (files store it through the sRGB curve), of linear Rec.709 values,
 // three a pixel, in place. Returns in how many pixels a value is not a number; they become black.
 size_t tone_map(std::span<float> rgb, const ToneMapping& mapping);
-
-// Three values a pixel, or why there are none.
-struct LayerResult {
-  std::vector<float> rgb;
-  std::string error;
-};
-// A layer as a picture: "" for the image itself, otherwise the channels whose names begin with "LAYER.": R, G, B or
-// X, Y, Z, or a single one as grey.
-LayerResult layer_rgb(const LayeredImage& image, std::string_view layer);
 
 // The matrix that makes the mean over all finite pixels grey (grey-world assumption; Buchsbaum 1980). Nothing when that
 // mean is black or has negative channels.

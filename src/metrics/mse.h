@@ -1,0 +1,18 @@
+// Mean squared error, of values or of the channels of pixels alike: mean of (x - r)^2.
+#pragma once
+
+#include <span>
+
+namespace etd {
+
+// Of values x against a reference r of as many; 0 for none. In the square of their unit.
+inline double mse(std::span<const float> x, std::span<const float> r) {
+  double sum = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    const double d = static_cast<double>(x[i]) - r[i];
+    sum += d * d;
+  }
+  return x.empty() ? 0.0 : sum / static_cast<double>(x.size());
+}
+
+}  // namespace etd
