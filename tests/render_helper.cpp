@@ -23,6 +23,11 @@ Film render_description(const SceneDescription& description, const RenderOverrid
 
 }  // namespace
 
+Film render_description(const SceneDescription& description, const RenderOverrides& overrides) {
+  Diagnostics diagnostics;
+  return render_description(description, overrides, diagnostics);
+}
+
 std::filesystem::path source_path(const std::string& relative) {
   return std::filesystem::path(ETENDUE_SOURCE_DIR) / relative;
 }

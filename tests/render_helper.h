@@ -22,6 +22,7 @@ std::filesystem::path source_path(const std::string& relative);
 
 // Render a pbrt scene to the end. Anything wrong with scene or overrides throws std::runtime_error with all messages.
 Film render_scene(const std::filesystem::path& file, const RenderOverrides& overrides);
+Film render_description(const SceneDescription& description, const RenderOverrides& overrides);
 // `folder` is where relative file names in the text start, "tests/scenes/agree" for example.
 Film render_text(const std::string& text, const std::string& folder, const RenderOverrides& overrides);
 

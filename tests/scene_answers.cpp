@@ -34,7 +34,7 @@ bool parse_mode(const std::string& text, SceneMode& mode) {
 
 }  // namespace
 
-AnsweredScene read_answers(const std::filesystem::path& file) {
+AnsweredScene read_comments(const std::filesystem::path& file) {
   AnsweredScene scene{.file = file, .answers = {}, .modes = {}, .problem = {}};
   const std::string answer = "# answer: ", mode = "# mode: ";
   std::ifstream in(file);
@@ -46,6 +46,11 @@ AnsweredScene read_answers(const std::filesystem::path& file) {
       good = parse_mode(line.substr(mode.size()), scene.modes.emplace_back());
     if (!good) scene.problem += "not understood: " + line + "\n";
   }
+  return scene;
+}
+
+AnsweredScene read_answers(const std::filesystem::path& file) {
+  AnsweredScene scene = read_comments(file);
   if (scene.answers.empty()) scene.problem += "the scene has no answer\n";
   if (scene.modes.empty()) scene.problem += "the scene names no mode\n";
   return scene;

@@ -39,6 +39,9 @@ struct AnsweredScene {
   std::string problem;  // of the comments; empty if there is none
 };
 
+// What the comments say, be it nothing.
+AnsweredScene read_comments(const std::filesystem::path& file);
+// The same; without an answer and a mode there is a problem.
 AnsweredScene read_answers(const std::filesystem::path& file);
 // All scenes of a folder, by name.
 std::vector<AnsweredScene> answered_scenes(const std::filesystem::path& folder);

@@ -114,8 +114,10 @@ TestResult t_test(const RunningStats& sample, double expected) {
   return result;
 }
 
-TestResult welch_test(const RunningStats& a, const RunningStats& b) {
-  const double va = a.variance_of_mean(), vb = b.variance_of_mean(), difference = a.mean() - b.mean();
+TestResult welch_test(const RunningStats& a, const RunningStats& b) { return welch_test(a.estimate(), b.estimate()); }
+
+TestResult welch_test(const MeanEstimate& a, const MeanEstimate& b) {
+  const double va = a.variance_of_mean, vb = b.variance_of_mean, difference = a.mean - b.mean;
   TestResult result;
   if (va + vb == 0.0) {
     if (difference != 0.0) result = {std::copysign(std::numeric_limits<double>::infinity(), difference), 0.0, 0.0};
@@ -123,7 +125,7 @@ TestResult welch_test(const RunningStats& a, const RunningStats& b) {
   }
   const auto part = [](double v, uint64_t n) { return v > 0.0 ? v * v / static_cast<double>(n - 1) : 0.0; };
   result.statistic = difference / std::sqrt(va + vb);
-  result.dof = (va + vb) * (va + vb) / (part(va, a.count()) + part(vb, b.count()));
+  result.dof = (va + vb) * (va + vb) / (part(va, a.count) + part(vb, b.count));
   result.p_value = student_t_two_sided(result.statistic, result.dof);
   return result;
 }

@@ -29,6 +29,12 @@ double bonferroni_level(double family, uint64_t tests);
 // The p-value of the smallest of `tests` independent p-values.
 double sidak_combined(double smallest_p, uint64_t tests);
 
+// The mean of `count` numbers, with the variance of that mean.
+struct MeanEstimate {
+  double mean = 0, variance_of_mean = 0;
+  uint64_t count = 0;
+};
+
 // Mean and variance of a stream of numbers (Welford 1962).
 class RunningStats {
  public:
@@ -38,6 +44,7 @@ class RunningStats {
   // Of the numbers, unbiased; 0 for fewer than two.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
   double variance_of_mean() const { return count_ > 0 ? variance() / static_cast<double>(count_) : 0.0; }
+  MeanEstimate estimate() const { return {mean_, variance_of_mean(), count_}; }
 
  private:
   uint64_t count_ = 0;
@@ -56,6 +63,7 @@ TestResult t_test(const RunningStats& sample, double expected);
 
 // Whether two means are equal, of samples whose variances may differ (Welch 1947); two-sided. Without any variance the
 // answer is 1 for equal means and 0 otherwise.
+TestResult welch_test(const MeanEstimate& a, const MeanEstimate& b);
 TestResult welch_test(const RunningStats& a, const RunningStats& b);
 
 // Pearson's test of observed counts against expected ones. Cells of which fewer than `min_expected` are expected are
