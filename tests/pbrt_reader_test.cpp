@@ -238,7 +238,7 @@ Material "dielectric" "float roughness" 0 "bool remaproughness" true)");
 TEST(PbrtReader, UnsupportedModelsAreReplacedWhenAllowed) {
   const Reading r(R"(WorldBegin
 Material "hair" "rgb color" [ 0.1 0.2 0.3 ] "float beta_m" 0.1
-Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]
+Shape "loopsubdiv" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2]
 Shape "curve"
 Texture "m" "spectrum" "marble" "integer octaves" 4)",
                   true);
@@ -249,7 +249,7 @@ Texture "m" "spectrum" "marble" "integer octaves" 4)",
   EXPECT_EQ(r.scene.materials[0].use.params[0].name, "reflectance");
   ASSERT_EQ(r.scene.shapes.size(), 1u);
   EXPECT_EQ(r.scene.shapes[0].use.model, "trianglemesh");
-  EXPECT_EQ(r.scene.shapes[0].use.find("indices")->integers, (std::vector<int32_t>{0, 1, 3, 0, 3, 2}));
+  EXPECT_EQ(r.scene.shapes[0].use.find("indices")->integers, (std::vector<int32_t>{0, 1, 2}));
   EXPECT_EQ(r.scene.textures[0].use.model, "constant");
   EXPECT_EQ(r.scene.textures[0].use.find("value")->numbers, std::vector<double>{0.5});
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shapes/mesh.h"
+#include "shapes/patch.h"
 #include "shapes/quadric.h"
 
 namespace etd {
@@ -12,6 +13,7 @@ namespace etd {
 struct GeometryGroup {
   std::vector<uint32_t> meshes;                 // indices into Geometry::meshes
   uint32_t quadric_begin = 0, quadric_end = 0;  // range of Geometry::quadrics
+  std::vector<uint32_t> patch_meshes = {};      // indices into Geometry::patch_meshes
 };
 
 struct GeometryInstance {
@@ -21,6 +23,7 @@ struct GeometryInstance {
 
 struct Geometry {
   std::vector<Mesh> meshes;
+  std::vector<PatchMesh> patch_meshes;
   std::vector<Quadric> quadrics;
   std::vector<GeometryGroup> groups = {{}};
   std::vector<GeometryInstance> instances;

@@ -40,9 +40,15 @@ SurfacePoint to_world(const SurfacePoint& s, const GeometryInstance& instance) {
 
 SurfacePoint surface_point(const Geometry& geometry, const Hit& hit) {
   const GeometryInstance* instance = hit.instance == kNoId ? nullptr : &geometry.instances[hit.instance];
-  if (hit.geometry == kQuadricGeometry) {
+  if (hit.on_quadric()) {
     const SurfacePoint s = quadric_point(geometry.quadrics[hit.primitive], hit.q);
     return instance ? to_world(s, *instance) : s;
+  }
+  if (hit.on_patch()) {
+    const PatchMesh& patches = geometry.patch_meshes[hit.patch_mesh()];
+    if (!instance) return patch_point(patches, hit.primitive, hit.u, hit.v);
+    const Point3 near = patch_point(patches, hit.primitive, hit.u, hit.v).p;
+    return to_world(patch_point(patches, hit.primitive, hit.u, hit.v, instance_error(*instance, near)), *instance);
   }
   const Mesh& mesh = geometry.meshes[hit.geometry];
   if (!instance) return triangle_point(mesh, hit.primitive, hit.u, hit.v);

@@ -1,4 +1,4 @@
-// From a hit to the surface point in the world: dispatches over triangles and quadrics, and through instances.
+// From a hit to the surface point in the world: dispatches over triangles, patches and quadrics, and through instances.
 #pragma once
 
 #include "accel/geometry.h"

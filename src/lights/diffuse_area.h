@@ -73,7 +73,7 @@ struct DiffuseAreaLight {
     if (is_black(emitted(s, -wi))) return 0.0f;
     if (const auto seen = surface.seen_from(p)) return static_cast<float>(1.0 / seen->solid_angle());
     const Vec3 d = s->p - p;
-    const float pdf = to_solid_angle(surface.pdf_area(s->p), dot(d, d), dot(s->ng, wi));
+    const float pdf = to_solid_angle(surface.pdf_area(*s), dot(d, d), dot(s->ng, wi));
     return std::isfinite(pdf) ? pdf : 0.0f;
   }
 

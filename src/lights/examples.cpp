@@ -1,5 +1,7 @@
 #include "lights/examples.h"
 
+#include <array>
+
 #include "core/hash.h"
 #include "lights/constant_infinite.h"
 #include "lights/diffuse_area.h"
@@ -23,6 +25,18 @@ LightExample triangle(std::string name, bool two_sided, bool flip, const Point3 
   const AreaEmission emission{Spectrum::rgb(3.0f, 1.0f, 0.2f), nullptr, two_sided};
   const DiffuseAreaLight<TriangleSurface> light(emission, TriangleSurface(*mesh, 0));
   return {std::move(name), Light(light), mesh, nullptr};
+}
+
+LightExample patch(std::string name, bool two_sided, const std::array<Point3, 4>& p) {
+  PatchMesh m;
+  m.positions.assign(p.begin(), p.end());
+  m.patches = {{0, 1, 2, 3}};
+  auto mesh = std::make_shared<const PatchMesh>(std::move(m));
+  const AreaEmission e{Spectrum::rgb(2.0f, 1.0f, 0.5f), nullptr, two_sided};
+  LightExample example{std::move(name), Light(DiffuseAreaLight<PatchSurface>(e, PatchSurface(*mesh, 0))), nullptr,
+                       nullptr};
+  example.patches = std::move(mesh);
+  return example;
 }
 
 LightExample quadric(std::string name, bool two_sided, bool flip, const Transform& t, const QuadricPart& part = {}) {
@@ -114,6 +128,9 @@ std::vector<LightExample> make_examples() {
       rectangle("diffuse(rectangle)", false, false),
       rectangle("diffuse(rectangle, image, two-sided)", true, true),
       textured_ball(),
+      patch("diffuse(trapezoid)", false, {{{-1, -1, 0}, {1, -0.8f, 0}, {-0.3f, 0.6f, 0}, {0.4f, 0.67f, 0}}}),
+      patch("diffuse(twisted patch, two-sided)", true,
+            {{{-1, -0.9f, 0.4f}, {0.8f, -0.7f, -0.5f}, {-0.9f, 0.8f, -0.4f}, {1, 0.6f, 0.7f}}}),
       quadric("diffuse(sphere)", false, false, half),
       quadric("diffuse(sphere, inward)", false, true, half),
       quadric("diffuse(sphere, two-sided)", true, false, half),

@@ -7,6 +7,7 @@
 
 #include "lights/light_data.h"
 #include "shapes/mesh.h"
+#include "shapes/patch.h"
 #include "shapes/quadric.h"
 
 namespace etd {
@@ -14,12 +15,13 @@ namespace etd {
 struct LightExample {
   std::string name;  // light, surface and parameters; unique
   Light light;
-  // The surface it is on, as it refers to: one triangle, one quadric, or none. Near the origin, at most 3 away.
+  // The surface it is on, as it refers to: one triangle, one quadric, one patch, or none. Near the origin, at most 3 away.
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Quadric> quadric;
   // The images it refers to.
   std::shared_ptr<const LightData> data = {};
   LightSampling sampling = LightSampling::kComplete;
+  std::shared_ptr<const PatchMesh> patches = {};
 };
 
 // The same list at every call, in a fixed order.

@@ -13,10 +13,10 @@
 namespace etd {
 
 namespace {
-using Lights =
-    TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>, DiffuseAreaLight<QuadricSurface>,
-             ConstantInfiniteLight, ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
-             PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
+                        DiffuseAreaLight<PatchSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
+                        ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
+                        PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
 
 template <class T>
@@ -25,6 +25,7 @@ Light::Light(const T& light) {
 }
 template Light::Light(const DiffuseAreaLight<TriangleSurface>&);
 template Light::Light(const DiffuseAreaLight<RectangleSurface>&);
+template Light::Light(const DiffuseAreaLight<PatchSurface>&);
 template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
 template Light::Light(const ImageInfiniteLight&);

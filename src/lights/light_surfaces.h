@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/solid_angle.h"
+#include "shapes/patch.h"
 #include "shapes/quadric.h"
 #include "shapes/triangle.h"
 
@@ -25,7 +26,7 @@ class TriangleSurface {
     pdf_area = 1.0f / area_;
     return sample_triangle(*mesh_, triangle_, u);
   }
-  float pdf_area(Point3) const { return 1.0f / area_; }
+  float pdf_area(const SurfacePoint&) const { return 1.0f / area_; }
 
   // The surface as p sees it; nothing where sampling by area is to be used.
   struct View {
@@ -54,7 +55,7 @@ class RectangleSurface {
     pdf_area = 1.0f / area_;
     return point(static_cast<double>(u.x), static_cast<double>(u.y));
   }
-  float pdf_area(Point3) const { return 1.0f / area_; }
+  float pdf_area(const SurfacePoint&) const { return 1.0f / area_; }
 
   struct View {
     const RectangleSurface& surface;
@@ -89,7 +90,7 @@ class QuadricSurface {
     pdf_area = quadric_pdf_area(*quadric_, q);
     return s;
   }
-  float pdf_area(Point3 p) const { return quadric_pdf_area(*quadric_, quadric_->unit_point(p)); }
+  float pdf_area(const SurfacePoint& s) const { return quadric_pdf_area(*quadric_, quadric_->unit_point(s.p)); }
 
   struct View {
     const QuadricSurface& surface;
@@ -103,6 +104,32 @@ class QuadricSurface {
  private:
   const Quadric* quadric_;
   float ball_radius_;  // 0: it is none
+};
+
+// One bilinear patch of a mesh that stays in place while the light lives.
+class PatchSurface {
+ public:
+  PatchSurface(const PatchMesh& mesh, uint32_t patch) : mesh_(&mesh), patch_(patch), area_(patch_area(mesh, patch)) {}
+
+  float area() const { return area_; }
+  SurfacePoint sample(Vec2 u, float& pdf_area) const {
+    const SurfacePoint s = sample_patch(*mesh_, patch_, u);
+    pdf_area = patch_pdf_area(*mesh_, patch_, s.parameters);
+    return s;
+  }
+  float pdf_area(const SurfacePoint& s) const { return patch_pdf_area(*mesh_, patch_, s.parameters); }
+
+  // There is no closed form for its solid angle.
+  struct View {
+    double solid_angle() const { return 0; }
+    SurfacePoint sample(Vec2) const { return {}; }
+  };
+  std::optional<View> seen_from(Point3) const { return {}; }
+
+ private:
+  const PatchMesh* mesh_;
+  uint32_t patch_;
+  float area_;
 };
 
 }  // namespace etd

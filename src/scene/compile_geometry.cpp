@@ -18,6 +18,14 @@ struct PlacedShape {
   Transform to_space;
 };
 
+// A shape of the world that is a light.
+struct Emitter {
+  enum class Kind { kMesh, kPatches, kQuadric };
+  const ShapeDesc* shape;
+  Kind kind;
+  uint32_t index;  // of the mesh, patch mesh or quadric
+};
+
 class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of,
@@ -125,12 +133,16 @@ class GeometryCompiler {
                                "no surface and no light");
   }
 
-  // Corners of the shape in its space: mesh vertices, or those of the box around a quadric.
+  // Corners of the shape in its space: vertices of meshes, or of the box around a quadric.
   void extend(Bounds3& bounds, const PlacedShape& placed) const {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
     if (it->second.mesh) {
       for (const Point3d& p : it->second.mesh->positions) bounds.extend(placed.to_space.point(p));
+      return;
+    }
+    if (it->second.patches) {
+      for (const Point3d& p : it->second.patches->vertices.positions) bounds.extend(placed.to_space.point(p));
       return;
     }
     const QuadricShape& quadric = *it->second.quadric;
@@ -181,6 +193,7 @@ class GeometryCompiler {
     size_t count = world_.size();
     for (const auto& [object, shapes] : objects_) count += shapes.size();
     scene_.geometry.meshes.reserve(count);
+    scene_.geometry.patch_meshes.reserve(count);
     scene_.geometry.quadrics.reserve(count);
   }
 
@@ -195,26 +208,36 @@ class GeometryCompiler {
       binding.alpha = alpha->second;
     }
     ++scene_.summary.shapes[placed.shape->use.model];
+    const bool reverse = placed.shape->reverse_orientation;
+    Emitter emitter{placed.shape, Emitter::Kind::kQuadric, 0};
     if (it->second.mesh) {
-      group.meshes.push_back(static_cast<uint32_t>(scene_.geometry.meshes.size()));
-      scene_.geometry.meshes.push_back(make_mesh(*it->second.mesh, to_space, placed.shape->reverse_orientation));
+      emitter = {placed.shape, Emitter::Kind::kMesh, static_cast<uint32_t>(scene_.geometry.meshes.size())};
+      group.meshes.push_back(emitter.index);
+      scene_.geometry.meshes.push_back(place_vertices<Mesh>(*it->second.mesh, to_space, reverse));
+      scene_.geometry.meshes.back().triangles = it->second.mesh->triangles;
       scene_.mesh_bindings.push_back(binding);
       scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
+    } else if (it->second.patches) {
+      emitter = {placed.shape, Emitter::Kind::kPatches, static_cast<uint32_t>(scene_.geometry.patch_meshes.size())};
+      group.patch_meshes.push_back(emitter.index);
+      scene_.geometry.patch_meshes.push_back(
+          place_vertices<PatchMesh>(it->second.patches->vertices, to_space, reverse));
+      scene_.geometry.patch_meshes.back().patches = it->second.patches->patches;
+      scene_.patch_bindings.push_back(binding);
     } else {
+      emitter.index = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const QuadricShape& quadric = *it->second.quadric;
-      scene_.geometry.quadrics.emplace_back(to_space * quadric.unit_to_object, placed.shape->reverse_orientation,
-                                            quadric.part);
+      scene_.geometry.quadrics.emplace_back(to_space * quadric.unit_to_object, reverse, quadric.part);
       scene_.quadric_bindings.push_back(binding);
       ++group.quadric_end;
     }
-    if (&group == &scene_.geometry.groups[0] && placed.shape->area_light >= 0)
-      emitters_.push_back({placed.shape, it->second.mesh.has_value(),
-                           static_cast<uint32_t>(it->second.mesh ? scene_.geometry.meshes.size() - 1
-                                                                 : scene_.geometry.quadrics.size() - 1)});
+    if (&group == &scene_.geometry.groups[0] && placed.shape->area_light >= 0) emitters_.push_back(emitter);
   }
 
-  Mesh make_mesh(const MeshData& data, const Transform& t, bool reverse) const {
-    Mesh mesh;
+  // A Mesh or PatchMesh with everything but its faces.
+  template <class M>
+  static M place_vertices(const MeshData& data, const Transform& t, bool reverse) {
+    M mesh;
     mesh.positions.reserve(data.positions.size() + 1);  // the accelerator may read a little beyond the last vertex
     for (const Point3d& p : data.positions) mesh.positions.push_back(to_float(t.point(p)));
     mesh.normals.reserve(data.normals.size());
@@ -224,7 +247,6 @@ class GeometryCompiler {
       mesh.normals.push_back(l > 0 && std::isfinite(l) ? to_float(m * (1.0 / l)) : Vec3{});
     }
     mesh.uvs = data.uvs;
-    mesh.triangles = data.triangles;
     mesh.flip_ng = reverse != (t.determinant3() < 0);
     return mesh;
   }
@@ -257,22 +279,18 @@ class GeometryCompiler {
     scene_.summary.instanced_triangles = triangles_seen;
   }
 
-  struct Emitter {
-    const ShapeDesc* shape;
-    bool is_mesh;
-    uint32_t index;  // of the mesh or quadric
-  };
-
   void add_lights() {
     AreaLightCompiler lights(description_.folder, scene_, diagnostics_);
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const size_t first = scene_.lights.size();
-      e.is_mesh ? lights.add_mesh(use, e.index) : lights.add_quadric(use, e.index);
-      const SurfaceBinding& binding = e.is_mesh ? scene_.mesh_bindings[e.index] : scene_.quadric_bindings[e.index];
-      if (!binding.has_holes) continue;
+      if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index);
+      if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index);
+      if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index);
+      const auto alpha = alpha_.find(e.shape);
+      if (alpha == alpha_.end()) continue;
       scene_.light_alphas.resize(first, {1.0f, -1});
-      scene_.light_alphas.resize(scene_.lights.size(), binding.alpha);
+      scene_.light_alphas.resize(scene_.lights.size(), alpha->second);
     }
   }
 

@@ -86,8 +86,23 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
   const auto first = static_cast<uint32_t>(scene_.lights.size());
   for (auto& light : rectangles) scene_.lights.push_back(Light(light.scaled(scale)));
   for (auto& light : triangles) scene_.lights.push_back(Light(light.scaled(scale)));
-  scene_.mesh_bindings[index].first_light = static_cast<uint32_t>(scene_.triangle_lights.size());
-  for (const uint32_t surface : surfaces.of_triangle) scene_.triangle_lights.push_back(first + surface);
+  scene_.mesh_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
+  for (const uint32_t surface : surfaces.of_triangle) scene_.face_lights.push_back(first + surface);
+  ++scene_.summary.lights[use.model + " area light"];
+}
+
+void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index) {
+  const PatchMesh& mesh = scene_.geometry.patch_meshes[index];
+  std::vector<PatchSurface> surfaces;
+  for (uint32_t i = 0; i < mesh.patches.size(); ++i) surfaces.emplace_back(mesh, i);
+  const AreaEmission e = emission(use);
+  const auto lights = lights_on(surfaces, e, points_for(e, surfaces.size()));
+  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", total_power(lights));
+  scene_.patch_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
+  for (const auto& light : lights) {
+    scene_.face_lights.push_back(static_cast<uint32_t>(scene_.lights.size()));
+    scene_.lights.push_back(Light(light.scaled(scale)));
+  }
   ++scene_.summary.lights[use.model + " area light"];
 }
 

@@ -19,6 +19,7 @@ class AreaLightCompiler {
 
   // A light for each triangle, or for two that make a rectangle.
   void add_mesh(const ModelUse& use, uint32_t mesh);
+  void add_patches(const ModelUse& use, uint32_t patch_mesh);
   void add_quadric(const ModelUse& use, uint32_t quadric);
 
  private:

@@ -36,13 +36,12 @@ bool Scene::find_solid(Ray ray, Hit& hit) const {
 }
 
 SurfaceHit Scene::surface(const Hit& hit) const {
-  const bool on_quadric = hit.geometry == kQuadricGeometry;
   const SurfaceBinding& binding = binding_of(hit);
   SurfaceHit s;
   s.point = surface_point(geometry, hit);
   s.material = &materials[binding.material];
   if (binding.first_light != kNoId)
-    s.light = on_quadric ? binding.first_light : triangle_lights[binding.first_light + hit.primitive];
+    s.light = hit.on_quadric() ? binding.first_light : face_lights[binding.first_light + hit.primitive];
   return s;
 }
 
@@ -55,6 +54,7 @@ Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
 size_t Scene::geometry_bytes() const {
   size_t sum = geometry.quadrics.size() * sizeof(Quadric) + geometry.instances.size() * sizeof(GeometryInstance);
   for (const Mesh& mesh : geometry.meshes) sum += mesh.bytes();
+  for (const PatchMesh& mesh : geometry.patch_meshes) sum += mesh.bytes();
   return sum;
 }
 

@@ -17,10 +17,11 @@
 
 namespace etd {
 
-// What a mesh or quadric is made of.
+// What a mesh, patch mesh or quadric is made of.
 struct SurfaceBinding {
   uint32_t material = 0;
-  // The quadric's light, or where the lights of the mesh's triangles start in `triangle_lights`; kNoId: does not emit.
+  // The quadric's light, or where the lights of the mesh's triangles or patches start in `face_lights`; kNoId: does not
+  // emit.
   uint32_t first_light = kNoId;
   bool has_holes = false;
   FloatSource alpha{1.0f, -1};
@@ -70,11 +71,12 @@ class Scene {
   size_t geometry_bytes() const;
 
   Geometry geometry;
-  std::vector<SurfaceBinding> mesh_bindings, quadric_bindings;  // one per mesh and quadric of `geometry`
+  // One per mesh, patch mesh and quadric of `geometry`.
+  std::vector<SurfaceBinding> mesh_bindings, patch_bindings, quadric_bindings;
   std::vector<Material> materials;
   TextureTable textures;
   std::vector<Light> lights;
-  std::vector<uint32_t> triangle_lights;  // of the triangles of emitting meshes, mesh by mesh
+  std::vector<uint32_t> face_lights;      // of the triangles and patches of emitting meshes, mesh by mesh
   bool has_holes = false;                 // any surface
   std::vector<FloatSource> light_alphas;  // by light; only as long as the last that has holes
   std::vector<uint32_t> infinite_lights;  // those that rays can find
@@ -88,7 +90,8 @@ class Scene {
 
  private:
   const SurfaceBinding& binding_of(const Hit& hit) const {
-    return hit.geometry == kQuadricGeometry ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
+    if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
+    return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
   }
   bool is_hole(const Ray& ray, const Hit& hit) const;
   bool find_solid(Ray ray, Hit& hit) const;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "io/obj.h"
 #include "shapes/alpha.h"
 
@@ -19,6 +21,26 @@ const ModelDecl& trianglemesh_decl() {
         .doc = "Three vertices per triangle, from 0; may be left out for a single triangle."},
        {.name = "N", .type = ParamType::kNormal, .array = true, .doc = "A shading normal per vertex."},
        {.name = "uv", .type = ParamType::kPoint2, .array = true, .doc = "Texture coordinates per vertex."},
+       alpha_param()}};
+  return d;
+}
+
+const ModelDecl& bilinearmesh_decl() {
+  static const ModelDecl d{
+      Family::kShape,
+      "bilinearmesh",
+      "Bilinear patches over shared vertices, each the surface that two pairs of opposite edges span.",
+      {{.name = "P", .type = ParamType::kPoint3, .required = true, .array = true, .unit = "m", .doc = "Vertices."},
+       {.name = "indices",
+        .type = ParamType::kInteger,
+        .array = true,
+        .doc = "Four vertices per patch, from 0, at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1); may be left out for a "
+               "single patch."},
+       {.name = "N", .type = ParamType::kNormal, .array = true, .doc = "A shading normal per vertex."},
+       {.name = "uv",
+        .type = ParamType::kPoint2,
+        .array = true,
+        .doc = "Texture coordinates per vertex; otherwise those of each patch."},
        alpha_param()}};
   return d;
 }
@@ -64,29 +86,26 @@ const ModelDecl& objmesh_decl() {
   return d;
 }
 
-std::optional<MeshData> make_trianglemesh(const ParamReader& p) {
+namespace {
+
+// What trianglemesh and bilinearmesh have in common: vertices, and indices of faces with so many corners each.
+struct IndexedVertices {
+  MeshData vertices;
+  std::vector<int32_t> indices;
+};
+
+void check_indices(const ParamReader& p, size_t corners, size_t vertices, std::vector<int32_t>& indices) {
   Diagnostics& diagnostics = p.diagnostics();
-  const int errors = diagnostics.error_count();
-  const std::vector<double> positions = p.numbers("P"), normals = p.numbers("N"), uvs = p.numbers("uv");
-  std::vector<int32_t> indices = p.integers("indices");
-  if (positions.empty()) return {};  // reported as missing
-  const size_t vertices = positions.size() / 3;
-  const auto check_count = [&](const char* name, size_t given) {
-    if (given == 0 || given == vertices) return;
-    diagnostics.error(p.given(name)->value_loc,
-                      fmt::format("\"{}\" has values for {} vertices, but \"P\" has {}", name, given, vertices));
-  };
-  check_count("N", normals.size() / 3);
-  check_count("uv", uvs.size() / 2);
   if (!p.given("indices")) {
-    if (vertices == 3)
-      indices = {0, 1, 2};
-    else
-      diagnostics.error(p.use().loc, "a trianglemesh of more than one triangle needs \"integer indices\"");
+    for (size_t i = 0; vertices == corners && i < corners; ++i) indices.push_back(static_cast<int32_t>(i));
+    if (vertices != corners)
+      diagnostics.error(p.use().loc, fmt::format("a {} of more than one {} needs \"integer indices\"", p.decl().name,
+                                                 corners == 3 ? "triangle" : "patch"));
+    return;
   }
-  if (indices.size() % 3 != 0)
+  if (indices.size() % corners != 0)
     diagnostics.error(p.given("indices")->value_loc,
-                      fmt::format("\"indices\" has {} values, which is not a multiple of 3", indices.size()));
+                      fmt::format("\"indices\" has {} values, which is not a multiple of {}", indices.size(), corners));
   size_t outside = 0, first = 0;
   for (size_t i = 0; i < indices.size(); ++i)
     if (indices[i] < 0 || static_cast<size_t>(indices[i]) >= vertices)
@@ -96,18 +115,80 @@ std::optional<MeshData> make_trianglemesh(const ParamReader& p) {
                       fmt::format("\"indices\" value {} (number {}) is not a vertex{}", indices[first], first + 1,
                                   outside > 1 ? fmt::format(", and {} more", outside - 1) : ""),
                       fmt::format("valid: 0 to {}", vertices - 1));
+}
+
+std::optional<IndexedVertices> read_indexed(const ParamReader& p, size_t corners) {
+  Diagnostics& diagnostics = p.diagnostics();
+  const int errors = diagnostics.error_count();
+  const std::vector<double> positions = p.numbers("P"), normals = p.numbers("N"), uvs = p.numbers("uv");
+  if (positions.empty()) return {};  // reported as missing
+  const size_t vertices = positions.size() / 3;
+  const auto check_count = [&](const char* name, size_t given) {
+    if (given == 0 || given == vertices) return;
+    diagnostics.error(p.given(name)->value_loc,
+                      fmt::format("\"{}\" has values for {} vertices, but \"P\" has {}", name, given, vertices));
+  };
+  check_count("N", normals.size() / 3);
+  check_count("uv", uvs.size() / 2);
+  IndexedVertices read{{}, p.integers("indices")};
+  check_indices(p, corners, vertices, read.indices);
   if (diagnostics.error_count() > errors) return {};
 
-  MeshData mesh;
+  MeshData& mesh = read.vertices;
   for (size_t i = 0; i < vertices; ++i)
     mesh.positions.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
   for (size_t i = 0; i + 2 < normals.size(); i += 3)
     mesh.normals.push_back(to_float(Vec3d{normals[i], normals[i + 1], normals[i + 2]}));
   for (size_t i = 0; i + 1 < uvs.size(); i += 2)
     mesh.uvs.push_back({static_cast<float>(uvs[i]), static_cast<float>(uvs[i + 1])});
-  for (size_t i = 0; i + 2 < indices.size(); i += 3)
-    mesh.triangles.push_back({static_cast<uint32_t>(indices[i]), static_cast<uint32_t>(indices[i + 1]),
-                              static_cast<uint32_t>(indices[i + 2])});
+  return read;
+}
+
+// The indices in groups of N.
+template <size_t N>
+std::vector<std::array<uint32_t, N>> in_faces(const std::vector<int32_t>& indices) {
+  std::vector<std::array<uint32_t, N>> faces(indices.size() / N);
+  for (size_t i = 0; i < N * faces.size(); ++i) faces[i / N][i % N] = static_cast<uint32_t>(indices[i]);
+  return faces;
+}
+
+}  // namespace
+
+std::optional<MeshData> make_trianglemesh(const ParamReader& p) {
+  std::optional<IndexedVertices> read = read_indexed(p, 3);
+  if (!read) return {};
+  read->vertices.triangles = in_faces<3>(read->indices);
+  return std::move(read->vertices);
+}
+
+std::optional<PatchData> make_bilinearmesh(const ParamReader& p) {
+  std::optional<IndexedVertices> read = read_indexed(p, 4);
+  if (!read) return {};
+  return PatchData{std::move(read->vertices), in_faces<4>(read->indices)};
+}
+
+std::optional<MeshData> as_triangles(const PatchData& data) {
+  const MeshData& from = data.vertices;
+  MeshData mesh;
+  for (const auto& patch : data.patches) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    const auto corner = [&](size_t i) { return from.positions[patch[i]]; };
+    const Vec3d twist = (corner(3) - corner(2)) - (corner(1) - corner(0));
+    if (!(length(twist) <= 1e-7 * (length(corner(3) - corner(0)) + length(corner(2) - corner(1))))) return {};
+    for (size_t i = 0; i < 4; ++i) {
+      mesh.positions.push_back(corner(i));
+      if (!from.normals.empty()) {
+        if (!(from.normals[patch[i]] == from.normals[patch[0]])) return {};
+        mesh.normals.push_back(from.normals[patch[i]]);
+      }
+      mesh.uvs.push_back(from.uvs.empty() ? Vec2{static_cast<float>(i & 1), static_cast<float>(i >> 1)}
+                                          : from.uvs[patch[i]]);
+    }
+    const Vec2* uv = mesh.uvs.data() + first;
+    if (uv[3].x - uv[2].x != uv[1].x - uv[0].x || uv[3].y - uv[2].y != uv[1].y - uv[0].y) return {};
+    mesh.triangles.push_back({first, first + 1, first + 3});
+    mesh.triangles.push_back({first, first + 3, first + 2});
+  }
   return mesh;
 }
 

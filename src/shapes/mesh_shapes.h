@@ -10,12 +10,23 @@
 namespace etd {
 
 const ModelDecl& trianglemesh_decl();
+const ModelDecl& bilinearmesh_decl();
 const ModelDecl& plymesh_decl();
 const ModelDecl& offmesh_decl();
 const ModelDecl& objmesh_decl();
 
+// Bilinear patches over vertices; the triangles of `vertices` are unused.
+struct PatchData {
+  MeshData vertices;
+  std::vector<std::array<uint32_t, 4>> patches;
+};
+
 // Of checked uses; nothing when there are problems, which are reported.
 std::optional<MeshData> make_trianglemesh(const ParamReader& p);
+std::optional<PatchData> make_bilinearmesh(const ParamReader& p);
+// The same surface as two triangles for each patch, if all are parallelograms with texture coordinates to match and one
+// normal each.
+std::optional<MeshData> as_triangles(const PatchData& data);
 // The mesh of the file that "filename" names, in the format of the model.
 std::optional<MeshData> make_mesh_from_file(const ParamReader& p, const std::filesystem::path& folder);
 

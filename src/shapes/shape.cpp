@@ -1,13 +1,11 @@
 // The list of shapes. To add one: its declaration, its line in make_shape.
 #include "shapes/shape.h"
 
-#include "shapes/mesh_shapes.h"
-
 namespace etd {
 
 std::span<const ModelDecl* const> shape_models() {
-  static const ModelDecl* const all[] = {&trianglemesh_decl(), &plymesh_decl(),  &offmesh_decl(), &objmesh_decl(),
-                                         &sphere_decl(),       &cylinder_decl(), &disk_decl()};
+  static const ModelDecl* const all[] = {&trianglemesh_decl(), &plymesh_decl(), &offmesh_decl(),  &objmesh_decl(),
+                                         &bilinearmesh_decl(), &sphere_decl(),  &cylinder_decl(), &disk_decl()};
   return all;
 }
 
@@ -15,11 +13,16 @@ std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesyst
                                         Diagnostics& diagnostics) {
   ShapeGeometry made;
   if (use.model == "trianglemesh") made.mesh = make_trianglemesh({trianglemesh_decl(), use, diagnostics});
+  if (use.model == "bilinearmesh") {
+    made.patches = make_bilinearmesh({bilinearmesh_decl(), use, diagnostics});
+    // Parallelograms are two triangles each, and those are met faster.
+    if (made.patches && (made.mesh = as_triangles(*made.patches))) made.patches.reset();
+  }
   for (const ModelDecl* file : {&plymesh_decl(), &offmesh_decl(), &objmesh_decl()})
     if (use.model == file->name) made.mesh = make_mesh_from_file({*file, use, diagnostics}, folder);
   for (const ModelDecl* quadric : {&sphere_decl(), &cylinder_decl(), &disk_decl()})
     if (use.model == quadric->name) made.quadric = make_quadric_shape({*quadric, use, diagnostics});
-  if (!made.mesh && !made.quadric) return {};
+  if (!made.mesh && !made.patches && !made.quadric) return {};
   return made;
 }
 

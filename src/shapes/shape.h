@@ -1,4 +1,4 @@
-// The family of shapes as scenes name them: each turns its parameters into a mesh or a quadric.
+// The family of shapes as scenes name them: each turns its parameters into a mesh, bilinear patches or a quadric.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include "io/mesh.h"
 #include "params/declaration.h"
+#include "shapes/mesh_shapes.h"
 #include "shapes/quadric_shapes.h"
 
 namespace etd {
@@ -14,6 +15,7 @@ namespace etd {
 // What a shape is before its transform: one of these.
 struct ShapeGeometry {
   std::optional<MeshData> mesh;
+  std::optional<PatchData> patches;
   std::optional<QuadricShape> quadric;
 };
 

@@ -12,6 +12,7 @@ struct SurfacePoint {
   Vec2 uv;
   // Along growing u and v, not normalised; zero where the parametrisation has none (poles, zero area).
   Vec3 dpdu, dpdv;
+  Vec2 parameters;  // u and v of a bilinear patch, which its uv need not be
 };
 
 // The origin of a ray that leaves `s` towards w: p moved by p_error along ng to w's side, every coordinate then rounded

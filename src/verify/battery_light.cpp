@@ -228,6 +228,10 @@ LightModel light_model(const LightExample& example) {
     m.geometry.meshes.push_back(*example.mesh);
     m.geometry.groups[0].meshes.push_back(0);
   }
+  if (example.patches) {
+    m.geometry.patch_meshes.push_back(*example.patches);
+    m.geometry.groups[0].patch_meshes.push_back(0);
+  }
   if (example.quadric) {
     m.geometry.quadrics.push_back(*example.quadric);
     m.geometry.groups[0].quadric_end = 1;

@@ -1,12 +1,14 @@
 // The Accelerator over Embree 3.13. Everything that knows Embree is in this file.
 //
-// One scene per used group: mesh i of the group has geometry id i, all its quadrics together the next id; the world's
-// scene holds instance j at the id after those plus j. Scenes are robust (watertight along shared edges) and built at
-// medium quality, whose parallel builder gives the same tree for any number of threads.
+// One scene per used group: mesh i of the group has geometry id i, all its quadrics together the next id, its patch
+// meshes those after that; the world's scene holds instance j at the id after those plus j. Scenes are robust
+// (watertight along shared edges) and built at medium quality, whose parallel builder gives the same tree for any
+// number of threads.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -16,49 +18,60 @@
 namespace etd {
 namespace {
 
-// What the callbacks for the quadrics of one group need.
-struct QuadricRange {
-  const Quadric* quadrics = nullptr;  // Geometry::quadrics
-  uint32_t begin = 0;                 // of the group
+// What the callbacks of a user geometry need: the quadrics of a group or the patches of a mesh.
+struct UserShapes {
+  const Quadric* quadrics = nullptr;  // the first of the group, or
+  const PatchMesh* patches = nullptr;
+
+  Bounds3 bounds(uint32_t i) const { return patches ? patch_bounds(*patches, i) : quadrics[i].bounds(); }
+  // What becomes RTCHit: the unit-shape point of a quadric travels in the place of Embree's normal.
+  struct Found {
+    float t;
+    Vec3 q;
+    float u, v;
+  };
+  std::optional<Found> intersect(uint32_t i, const RTCRay& ray) const {
+    const Point3 o{ray.org_x, ray.org_y, ray.org_z};
+    const Vec3 d{ray.dir_x, ray.dir_y, ray.dir_z};
+    const float t_max = next_up(ray.tfar), t_min = next_down(ray.tnear);
+    if (patches) {
+      const auto found = intersect_patch(*patches, i, o, d, t_max, t_min);
+      return found ? std::optional<Found>({found->t, Vec3{}, found->u, found->v}) : std::nullopt;
+    }
+    const auto found = quadrics[i].intersect(o, d, t_max, t_min);
+    return found ? std::optional<Found>({found->t, found->q, 0.0f, 0.0f}) : std::nullopt;
+  }
 };
 
-// Rounded outwards by more than the map and its inverse can disagree and than an edge is met beyond its place.
-void quadric_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& range = *static_cast<const QuadricRange*>(args->geometryUserPtr);
-  const Bounds3 box = range.quadrics[range.begin + args->primID].bounds();
+// Rounded outwards by more than maps and their inverses can disagree and than an edge is met beyond its place.
+void user_bounds(const RTCBoundsFunctionArguments* args) {
+  const Bounds3 box = static_cast<const UserShapes*>(args->geometryUserPtr)->bounds(args->primID);
   Point3 lower = to_float(box.lo), upper = to_float(box.hi);
+  const Vec3 size = upper - lower;
+  const float largest = std::max(size.x, std::max(size.y, size.z));
   for (int i = 0; i < 3; ++i) {
-    const float slack = 0x1p-20f * (upper[i] - lower[i] + std::max(std::abs(lower[i]), std::abs(upper[i])));
+    const float slack = 0x1p-19f * (largest + std::max(std::abs(lower[i]), std::abs(upper[i])));
     lower[i] -= slack;
     upper[i] += slack;
   }
   *args->bounds_o = {lower.x, lower.y, lower.z, 0.0f, upper.x, upper.y, upper.z, 0.0f};
 }
 
-std::optional<Quadric::Intersection> intersect_quadric(const void* range_pointer, uint32_t primitive,
-                                                       const RTCRay& ray) {
-  const auto& range = *static_cast<const QuadricRange*>(range_pointer);
-  const Quadric& quadric = range.quadrics[range.begin + primitive];
-  return quadric.intersect({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, next_up(ray.tfar),
-                           next_down(ray.tnear));
-}
-
-// The unit-shape point travels to Accelerator::intersect in the place of Embree's normal. Rays come one at a time
-// (N=1).
-void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
+// Rays come one at a time (N=1).
+void user_intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto found = intersect_quadric(args->geometryUserPtr, args->primID, query.ray);
+  const auto found = static_cast<const UserShapes*>(args->geometryUserPtr)->intersect(args->primID, query.ray);
   if (!found) return;
   const Vec3 q = found->q;
   query.ray.tfar = found->t;
-  query.hit = {q.x, q.y, q.z, 0.0f, 0.0f, args->primID, args->geomID, {args->context->instID[0]}};
+  query.hit = {q.x, q.y, q.z, found->u, found->v, args->primID, args->geomID, {args->context->instID[0]}};
 }
 
-void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
+void user_occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (intersect_quadric(args->geometryUserPtr, args->primID, ray)) ray.tfar = -kInfinity;
+  if (static_cast<const UserShapes*>(args->geometryUserPtr)->intersect(args->primID, ray)) ray.tfar = -kInfinity;
 }
 
 // The smallest distance Embree may report: it tests tnear <= t, we promise t_min < t, and work items flush denormals.
@@ -84,14 +97,14 @@ RTCRay to_embree(const Ray& r) {
 struct Accelerator::Impl {
   const Geometry& geometry;
   RTCDevice device = nullptr;
-  std::vector<RTCScene> scenes;      // by group; null where nothing uses it or it is empty
-  std::vector<QuadricRange> ranges;  // by group
-  uint32_t first_instance = 0;       // geometry id of instance 0
+  std::vector<RTCScene> scenes;        // by group; null where nothing uses it or it is empty
+  std::deque<UserShapes> user_shapes;  // of the user geometries, which point here
+  uint32_t first_instance = 0;         // geometry id of instance 0
   std::atomic<int64_t> bytes{0};
   std::mutex error_mutex;  // builders report from their own threads
   std::string error;
 
-  explicit Impl(const Geometry& g) : geometry(g), scenes(g.groups.size()), ranges(g.groups.size()) {}
+  explicit Impl(const Geometry& g) : geometry(g), scenes(g.groups.size()) {}
   ~Impl() {
     for (RTCScene scene : scenes)
       if (scene) rtcReleaseScene(scene);
@@ -102,7 +115,7 @@ struct Accelerator::Impl {
   void build();
   RTCScene new_scene(uint32_t group);
   void attach_mesh(RTCScene scene, uint32_t id, const Mesh& mesh);
-  void attach_quadrics(RTCScene scene, uint32_t id, uint32_t group);
+  void attach_user(RTCScene scene, uint32_t id, const UserShapes& shapes, size_t count);
   void attach_instance(uint32_t index);
   bool is_empty(const GeometryGroup& group) const;
   void check() const {
@@ -161,21 +174,20 @@ void Accelerator::Impl::attach_mesh(RTCScene scene, uint32_t id, const Mesh& mes
   attach(scene, shape, id);
 }
 
-void Accelerator::Impl::attach_quadrics(RTCScene scene, uint32_t id, uint32_t group) {
-  const GeometryGroup& g = geometry.groups[group];
-  if (g.quadric_begin == g.quadric_end) return;
-  ranges[group] = {geometry.quadrics.data(), g.quadric_begin};
+void Accelerator::Impl::attach_user(RTCScene scene, uint32_t id, const UserShapes& shapes, size_t count) {
+  if (count == 0) return;
+  user_shapes.push_back(shapes);
   RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   check();
-  rtcSetGeometryUserPrimitiveCount(shape, g.quadric_end - g.quadric_begin);
-  rtcSetGeometryUserData(shape, &ranges[group]);
-  rtcSetGeometryBoundsFunction(shape, quadric_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(shape, quadric_intersect);
-  rtcSetGeometryOccludedFunction(shape, quadric_occluded);
+  rtcSetGeometryUserPrimitiveCount(shape, static_cast<uint32_t>(count));
+  rtcSetGeometryUserData(shape, &user_shapes.back());
+  rtcSetGeometryBoundsFunction(shape, user_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(shape, user_intersect);
+  rtcSetGeometryOccludedFunction(shape, user_occluded);
   attach(scene, shape, id);
 }
 
-// A scene with the meshes and quadrics of a group, not yet committed.
+// A scene with everything of a group, not yet committed.
 RTCScene Accelerator::Impl::new_scene(uint32_t group) {
   const GeometryGroup& g = geometry.groups[group];
   RTCScene scene = scenes[group] = rtcNewScene(device);
@@ -183,13 +195,18 @@ RTCScene Accelerator::Impl::new_scene(uint32_t group) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   for (uint32_t i = 0; i < g.meshes.size(); ++i) attach_mesh(scene, i, geometry.meshes[g.meshes[i]]);
-  attach_quadrics(scene, static_cast<uint32_t>(g.meshes.size()), group);
+  auto id = static_cast<uint32_t>(g.meshes.size());
+  attach_user(scene, id, {geometry.quadrics.data() + g.quadric_begin, nullptr}, g.quadric_end - g.quadric_begin);
+  for (const uint32_t mesh : g.patch_meshes)
+    attach_user(scene, ++id, {nullptr, &geometry.patch_meshes[mesh]}, geometry.patch_meshes[mesh].patches.size());
   return scene;
 }
 
 bool Accelerator::Impl::is_empty(const GeometryGroup& group) const {
   for (uint32_t mesh : group.meshes)
     if (!geometry.meshes[mesh].triangles.empty()) return false;
+  for (uint32_t mesh : group.patch_meshes)
+    if (!geometry.patch_meshes[mesh].patches.empty()) return false;
   return group.quadric_begin == group.quadric_end;
 }
 
@@ -208,7 +225,7 @@ void Accelerator::Impl::attach_instance(uint32_t index) {
 }
 
 void Accelerator::Impl::build() {
-  first_instance = static_cast<uint32_t>(geometry.groups[0].meshes.size()) + 1;
+  first_instance = static_cast<uint32_t>(geometry.groups[0].meshes.size() + 1 + geometry.groups[0].patch_meshes.size());
   RTCScene world = new_scene(0);
   for (uint32_t i = 0; i < geometry.instances.size(); ++i) attach_instance(i);
   rtcCommitScene(world);
@@ -240,6 +257,11 @@ bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
   const GeometryGroup& group = geometry.groups[hit.instance == kNoId ? 0 : geometry.instances[hit.instance].group];
   if (h.geomID < group.meshes.size()) {
     hit.geometry = group.meshes[h.geomID];
+    hit.primitive = h.primID;
+    hit.u = h.u;
+    hit.v = h.v;
+  } else if (const size_t after = h.geomID - group.meshes.size(); after > 0) {
+    hit.geometry = kFirstPatchGeometry + group.patch_meshes[after - 1];
     hit.primitive = h.primID;
     hit.u = h.u;
     hit.v = h.v;

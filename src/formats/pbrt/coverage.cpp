@@ -107,24 +107,6 @@ bool has_value(const Param& param, std::string_view text) {
          std::all_of(param.integers.begin(), param.integers.end(), [&](int32_t x) { return x == *number; });
 }
 
-// Four corners in the order (0,0) (1,0) (0,1) (1,1) become two triangles.
-void split_patches(ModelUse& use) {
-  for (Param& p : use.params) {
-    if (p.name != "indices" || p.integers.size() % 4 != 0) continue;
-    std::vector<int32_t> triangles;
-    for (size_t i = 0; i < p.integers.size(); i += 4)
-      for (const size_t corner : {0, 1, 3, 0, 3, 2}) triangles.push_back(p.integers[i + corner]);
-    p.integers = std::move(triangles);
-    return;
-  }
-  Param single;
-  single.name = "indices";
-  single.kind = ParamKind::kInteger;
-  single.integers = {0, 1, 3, 0, 3, 2};
-  single.loc = single.value_loc = use.loc;
-  if (!use.find("indices")) use.params.push_back(std::move(single));
-}
-
 ModelUse substitute(const UnsupportedModel& model, ModelUse use) {
   ModelUse stand_in{std::string(model.stand_in), {}, use.loc};
   for (Param& p : use.params)
@@ -142,7 +124,6 @@ ModelUse substitute(const UnsupportedModel& model, ModelUse use) {
     fixed.loc = fixed.value_loc = use.loc;
     stand_in.params.push_back(std::move(fixed));
   }
-  if (model.family == Family::kShape && model.name == "bilinearmesh") split_patches(stand_in);
   return stand_in;
 }
 

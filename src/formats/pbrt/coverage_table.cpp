@@ -7,11 +7,6 @@ namespace etd::pbrt {
 
 std::span<const UnsupportedModel> unsupported_models() {
   static const std::vector<UnsupportedModel> table = {
-      {Family::kShape,
-       "bilinearmesh",
-       "trianglemesh",
-       "two triangles for each patch",
-       {{"P", "P"}, {"N", "N"}, {"uv", "uv"}, {"indices", "indices"}}},
       {Family::kShape, "loopsubdiv", "trianglemesh", "its control mesh", {{"P", "P"}, {"indices", "indices"}}},
       {Family::kShape, "curve", "", "no shape"},
 
@@ -66,6 +61,8 @@ std::span<const UnsupportedParam> unsupported_params() {
   static const std::vector<UnsupportedParam> table = {
       {Family::kShape, "trianglemesh", "S", "", "tangents from the texture coordinates"},
       {Family::kShape, "trianglemesh", "faceIndices", "*", "only ptex textures read it"},
+      {Family::kShape, "bilinearmesh", "emissionfilename", "", "the radiance of its area light"},
+      {Family::kShape, "bilinearmesh", "faceIndices", "*", "only ptex textures read it"},
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
 
