@@ -129,6 +129,8 @@ std::vector<LightExample> make_examples() {
       rectangle("diffuse(rectangle, image, two-sided)", true, true),
       textured_ball(),
       patch("diffuse(trapezoid)", false, {{{-1, -1, 0}, {1, -0.8f, 0}, {-0.3f, 0.6f, 0}, {0.4f, 0.67f, 0}}}),
+      patch("diffuse(rectangular patch)", false,
+            {{{-1, -0.5f, 0.2f}, {0.8f, -0.5f, 0.2f}, {-1, 0.5f, 0.2f}, {0.8f, 0.5f, 0.2f}}}),
       patch("diffuse(twisted patch, two-sided)", true,
             {{{-1, -0.9f, 0.4f}, {0.8f, -0.7f, -0.5f}, {-0.9f, 0.8f, -0.4f}, {1, 0.6f, 0.7f}}}),
       quadric("diffuse(sphere)", false, false, half),

@@ -15,7 +15,8 @@ namespace etd {
 struct LightExample {
   std::string name;  // light, surface and parameters; unique
   Light light;
-  // The surface it is on, as it refers to: one triangle, one quadric, one patch, or none. Near the origin, at most 3 away.
+  // The surface it is on, as it refers to: one triangle, one quadric, one patch, or none. Near the origin, at most 3
+  // away.
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Quadric> quadric;
   // The images it refers to.

@@ -21,6 +21,16 @@ SurfacePoint point_of_triangle(const Mesh& mesh, uint32_t triangle, Vec2T<double
   return triangle_point(mesh, triangle, static_cast<float>(b1), static_cast<float>(b2));
 }
 
+// Whether the edges x and y from a corner make a rectangle with the corner opposite to it. Rounded corners are
+// forgiven; anything more would move light.
+bool is_rectangle(Vec3d x, Vec3d y, Vec3d opposite) {
+  constexpr double kTolerance = 1e-6;
+  const double xx = dot(x, x), yy = dot(y, y);
+  const Vec3d gap = opposite - x - y;
+  return xx > 0 && yy > 0 && std::abs(dot(x, y)) <= kTolerance * std::sqrt(xx * yy) &&
+         dot(gap, gap) <= sqr(kTolerance) * std::min(xx, yy);
+}
+
 }  // namespace
 
 std::optional<TriangleSurface::View> TriangleSurface::seen_from(Point3 p) const {
@@ -68,12 +78,7 @@ std::optional<RectangleSurface> RectangleSurface::find(const Mesh& mesh, uint32_
 
   const Point3d o = vertex(mesh, r.corner_);
   const Vec3d x = vertex(mesh, r.end_x_) - o, y = vertex(mesh, r.end_y_) - o, d = vertex(mesh, opposite) - o;
-  const double xx = dot(x, x), yy = dot(y, y);
-  // Rounded corners are forgiven; anything more would move light.
-  constexpr double kTolerance = 1e-6;
-  const Vec3d gap = d - x - y;
-  if (!(xx > 0 && yy > 0) || std::abs(dot(x, y)) > kTolerance * std::sqrt(xx * yy)) return {};
-  if (dot(gap, gap) > sqr(kTolerance) * std::min(xx, yy)) return {};
+  if (!is_rectangle(x, y, d)) return {};
   // Both triangles must face the same side.
   const Point3d b0 = vertex(mesh, b[0]);
   if (dot(cross(vertex(mesh, b[1]) - b0, vertex(mesh, b[2]) - b0), cross(x, y)) <= 0.0) return {};
@@ -116,6 +121,41 @@ std::optional<QuadricSurface::View> QuadricSurface::seen_from(Point3 p) const {
 SurfacePoint QuadricSurface::View::sample(Vec2 u) const {
   const Vec3 n = to_float(seen.sample_normal(u));
   return quadric_point(*surface.quadric_, normalize(surface.quadric_->to_object.vector(n)));
+}
+
+namespace {
+
+// A corner of a patch and the edges from it along growing u and v.
+struct PatchCorner {
+  Point3d corner;
+  Vec3d x, y, opposite;
+
+  PatchCorner(const PatchMesh& mesh, uint32_t patch) {
+    const auto position = [&](size_t i) { return to_double(mesh.positions[mesh.patches[patch][i]]); };
+    corner = position(0);
+    x = position(1) - corner, y = position(2) - corner, opposite = position(3) - corner;
+  }
+};
+
+}  // namespace
+
+PatchSurface::PatchSurface(const PatchMesh& mesh, uint32_t patch)
+    : mesh_(&mesh), patch_(patch), area_(patch_area(mesh, patch)) {
+  const PatchCorner at(mesh, patch);
+  is_rectangle_ = is_rectangle(at.x, at.y, at.opposite);
+}
+
+std::optional<PatchSurface::View> PatchSurface::seen_from(Point3 p) const {
+  if (!is_rectangle_) return {};
+  const PatchCorner at(*mesh_, patch_);
+  const SphericalRectangle seen(to_double(p), at.corner, at.x, at.y);
+  if (!(seen.solid_angle() > kSmallSolidAngle)) return {};
+  return View{*this, seen};
+}
+
+SurfacePoint PatchSurface::View::sample(Vec2 u) const {
+  const Vec2T<double> at = seen.sample(u);
+  return patch_point(*surface.mesh_, surface.patch_, static_cast<float>(at.x), static_cast<float>(at.y));
 }
 
 }  // namespace etd

@@ -109,7 +109,7 @@ class QuadricSurface {
 // One bilinear patch of a mesh that stays in place while the light lives.
 class PatchSurface {
  public:
-  PatchSurface(const PatchMesh& mesh, uint32_t patch) : mesh_(&mesh), patch_(patch), area_(patch_area(mesh, patch)) {}
+  PatchSurface(const PatchMesh& mesh, uint32_t patch);
 
   float area() const { return area_; }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
@@ -119,17 +119,20 @@ class PatchSurface {
   }
   float pdf_area(const SurfacePoint& s) const { return patch_pdf_area(*mesh_, patch_, s.parameters); }
 
-  // There is no closed form for its solid angle.
   struct View {
-    double solid_angle() const { return 0; }
-    SurfacePoint sample(Vec2) const { return {}; }
+    const PatchSurface& surface;
+    SphericalRectangle seen;
+    double solid_angle() const { return seen.solid_angle(); }
+    SurfacePoint sample(Vec2 u) const;
   };
-  std::optional<View> seen_from(Point3) const { return {}; }
+  // Of a rectangle; the solid angle of other patches has no closed form.
+  std::optional<View> seen_from(Point3 p) const;
 
  private:
   const PatchMesh* mesh_;
   uint32_t patch_;
   float area_;
+  bool is_rectangle_;
 };
 
 }  // namespace etd

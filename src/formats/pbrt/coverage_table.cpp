@@ -61,7 +61,8 @@ std::span<const UnsupportedParam> unsupported_params() {
   static const std::vector<UnsupportedParam> table = {
       {Family::kShape, "trianglemesh", "S", "", "tangents from the texture coordinates"},
       {Family::kShape, "trianglemesh", "faceIndices", "*", "only ptex textures read it"},
-      {Family::kShape, "bilinearmesh", "emissionfilename", "", "the radiance of its area light"},
+      {Family::kShape, "bilinearmesh", "emissionfilename", "*",
+       "it guides the sampling of a light and changes no mean"},
       {Family::kShape, "bilinearmesh", "faceIndices", "*", "only ptex textures read it"},
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
