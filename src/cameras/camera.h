@@ -1,8 +1,11 @@
-// The family of cameras: from a point on the film (and later the lens) to a ray in the recentred world.
+// The family of cameras: from a point on the film and one on the lens to a ray in the recentred world.
 #pragma once
 
+#include <deque>
+#include <filesystem>
 #include <span>
 
+#include "core/distribution.h"
 #include "core/ray.h"
 #include "core/tagged.h"
 #include "core/transform.h"
@@ -27,16 +30,22 @@ class Camera {
   Ray generate_ray(const CameraSample& sample) const;
 
  private:
-  TaggedStorage<96> storage_;
+  TaggedStorage<144> storage_;
 };
 
 struct CameraFrame {
   Transform camera_to_world;  // to the recentred world
   int width = 0, height = 0;
+  std::filesystem::path folder;  // that file names start from
+};
+
+// What cameras are too small to hold themselves. Nothing in it moves while cameras are made.
+struct CameraData {
+  std::deque<GridDistribution> apertures;
 };
 
 std::span<const ModelDecl* const> camera_models();
 // Of a checked use; the perspective camera for an unknown name.
-Camera make_camera(const ModelUse& use, const CameraFrame& frame, Diagnostics& diagnostics);
+Camera make_camera(const ModelUse& use, const CameraFrame& frame, CameraData& data, Diagnostics& diagnostics);
 
 }  // namespace etd

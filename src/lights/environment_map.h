@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/distribution.h"
+#include "core/equal_area.h"
 #include "io/image.h"
 #include "lights/light.h"
 
@@ -16,8 +17,7 @@ class EnvironmentMap {
  public:
   // How texels lie on the sphere of directions; row 0 is the image's top.
   enum class Layout : uint8_t {
-    // Square: the octahedron unfolded so that all texels have the same solid angle (Clarberg 2008, "Fast Equal-Area
-    // Mapping of the (Hemi)Sphere using SIMD"), +z in the middle, -z in the corners, +x to the right, +y down.
+    // Square (core/equal_area.h): +z in the middle, -z in the corners, +x to the right, +y down.
     kEqualArea,
     // Twice as wide as high: theta = pi v from +z down the rows, phi = 2 pi u from +x towards +y along them.
     kLatLong
@@ -61,10 +61,6 @@ class EnvironmentMap {
   GridDistribution full_, compensated_;
   Spectrum integral_;
 };
-
-// The square [0, 1]^2 to the unit sphere and back, by the equal-area layout.
-Vec3 equal_area_direction(Vec2 st);
-Vec2 equal_area_square(Vec3 w);
 
 // Reads the image of a light's "filename". Reports what keeps it from being one (unreadable, values that are not
 // finite), and then gives nothing.

@@ -99,6 +99,11 @@ const ParamDecl* ModelDecl::find(std::string_view param) const {
   return nullptr;
 }
 
+ModelDecl with_params(ModelDecl decl, const std::vector<std::vector<ParamDecl>>& parts) {
+  for (const std::vector<ParamDecl>& part : parts) decl.params.insert(decl.params.end(), part.begin(), part.end());
+  return decl;
+}
+
 bool ParamReader::boolean(std::string_view name) const {
   const ParamDecl& decl = require(decl_, name, {ParamType::kBool});
   if (const Param* p = given(name)) return p->integers[0] != 0;

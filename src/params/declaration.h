@@ -74,6 +74,9 @@ struct ModelDecl {
   const ParamDecl* find(std::string_view name) const;
 };
 
+// The declaration with the parameters of several parts that models share behind its own.
+ModelDecl with_params(ModelDecl decl, const std::vector<std::vector<ParamDecl>>& parts);
+
 // Reports every parameter of `use` that is unknown (with the nearest name), given twice, of the wrong type or count,
 // out of range or not among the choices, and every required one that is missing.
 void check_params(const ModelDecl& decl, const ModelUse& use, Diagnostics& diagnostics);

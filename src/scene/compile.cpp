@@ -112,8 +112,10 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   if (description.camera_to_world.is_singular())
     diagnostics.error(description.camera.loc, "the camera's transform is singular");
   const Transform to_recentred = Transform::translate(-scene->origin);
-  scene->camera = make_camera(description.camera,
-                              {to_recentred * description.camera_to_world, options.width, options.height}, diagnostics);
+  scene->camera =
+      make_camera(description.camera,
+                  {to_recentred * description.camera_to_world, options.width, options.height, description.folder},
+                  scene->camera_data, diagnostics);
   scene->filter = make_filter(description.filter, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
 

@@ -83,6 +83,7 @@ class Scene {
   LightData light_data;
   PowerLightSampler light_sampler;
   Camera camera;
+  CameraData camera_data;
   Filter filter;
   std::unique_ptr<Accelerator> accelerator;
   Vec3d origin;  // world position that was moved to (0, 0, 0)

@@ -28,9 +28,7 @@ std::span<const UnsupportedModel> unsupported_models() {
       {Family::kTexture, "windy", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
       {Family::kTexture, "wrinkled", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
 
-      {Family::kCamera, "orthographic", "perspective", "a perspective camera of the default field of view"},
       {Family::kCamera, "realistic", "perspective", "a perspective camera of the default field of view"},
-      {Family::kCamera, "spherical", "perspective", "a perspective camera of the default field of view"},
 
       {Family::kFilter, "mitchell", "gaussian", "the default gaussian filter"},
       {Family::kFilter, "sinc", "gaussian", "the default gaussian filter"},
@@ -75,8 +73,10 @@ std::span<const UnsupportedParam> unsupported_params() {
 
       {Family::kLight, "infinite", "portal", "", "light from all directions"},
 
-      {Family::kCamera, "perspective", "lensradius", "0", "a pinhole camera"},
-      {Family::kCamera, "perspective", "focaldistance", "*", "only a lens reads it"},
+      {Family::kCamera, "spherical", "lensradius", "*", "a spherical camera has no lens"},
+      {Family::kCamera, "spherical", "focaldistance", "*", "a spherical camera has no lens"},
+      {Family::kCamera, "spherical", "frameaspectratio", "*", "a spherical camera sees all directions"},
+      {Family::kCamera, "spherical", "screenwindow", "*", "a spherical camera sees all directions"},
       {Family::kCamera, "", "shutteropen", "0", "a shutter that opens at 0"},
       {Family::kCamera, "", "shutterclose", "1", "a shutter that closes at 1"},
 

@@ -1,0 +1,25 @@
+// The camera that sees all directions from one point.
+#pragma once
+
+#include "cameras/camera.h"
+
+namespace etd {
+
+struct SphericalCamera {
+  Point3 origin;
+  Vec3 x, y, z;  // the axes of camera space, in the world
+  Vec2 pixel;    // the size of a pixel as a share of the image
+  bool equal_area = true;
+
+  static const ModelDecl& decl();
+  static SphericalCamera create(const ParamReader& p, const CameraFrame& frame);
+
+  Ray generate_ray(const CameraSample& s) const {
+    const Vec3 d = direction({s.film.x * pixel.x, s.film.y * pixel.y});
+    return {origin, normalize(x * d.x + y * d.y + z * d.z), kInfinity, s.time};
+  }
+  // Of a point of the image as a share of its sides, in camera space.
+  Vec3 direction(Vec2 st) const;
+};
+
+}  // namespace etd
