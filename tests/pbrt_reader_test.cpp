@@ -224,7 +224,7 @@ TransformTimes 0 1
 ActiveTransform StartTime
 ActiveTransform All
 MediumInterface "" ""
-Camera "perspective" "float lensradius" 0 "float focaldistance" 10 "float shutteropen" 0 "float shutterclose" 1
+Camera "spherical" "float lensradius" 0.5 "float focaldistance" 10 "float shutteropen" 0 "float shutterclose" 1
 Film "rgb" "float iso" 100 "string sensor" "cie1931" "float diagonal" 35 "float whitebalance" 0
 WorldBegin
 Shape "trianglemesh" "integer faceIndices" 1
