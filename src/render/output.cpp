@@ -122,6 +122,27 @@ LayeredImage make_layers(const Film& film) {
   return image;
 }
 
+void add_replicate_layers(const Film& film, LayeredImage& image) {
+  const FilmSettings& settings = film.settings();
+  std::vector<float> pixels;
+  const size_t channels = image.channels.size();
+  pixels.reserve(image.pixels.size() / channels * (channels + 3 * settings.replicates));
+  auto from = image.pixels.begin();
+  for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
+    for (int x = settings.crop.x0; x < settings.crop.x1; ++x) {
+      const auto next = from + static_cast<std::ptrdiff_t>(channels);
+      pixels.insert(pixels.end(), from, next);
+      from = next;
+      for (uint32_t r = 0; r < settings.replicates; ++r) {
+        const Rgb picture = radiance(film.sums(x, y, r)).picture;
+        pixels.insert(pixels.end(), picture.begin(), picture.end());
+      }
+    }
+  image.pixels = std::move(pixels);
+  for (uint32_t r = 0; r < settings.replicates; ++r)
+    for (const char* c : {"R", "G", "B"}) image.channels.push_back(fmt::format("replicate{}.{}", r, c));
+}
+
 LayeredImage make_picture(const Film& film) {
   const PixelBounds& crop = film.settings().crop;
   LayeredImage image = empty_image(film.settings(), {"R", "G", "B"});

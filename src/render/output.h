@@ -20,6 +20,9 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 // float layers, so that this sum holds bit for bit in the file.
 LayeredImage make_layers(const Film& film);
 
+// Adds layers replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is the picture.
+void add_replicate_layers(const Film& film, LayeredImage& image);
+
 // The picture alone: the layers R, G and B of make_layers().
 LayeredImage make_picture(const Film& film);
 

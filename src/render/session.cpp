@@ -64,9 +64,13 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
   return finished;
 }
 
-LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished) {
+LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
   LayeredImage image = make_layers(finished.film);
+  if (replicate_layers) add_replicate_layers(finished.film, image);
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, prepared.integrator->bias(), finished.result);
+  const IntegratorTraits traits = prepared.integrator->traits();
+  const bool independent = traits.memoryless && !traits.splats;
+  image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));
   return image;
 }
 

@@ -43,8 +43,9 @@ struct FinishedRender {
 // Renders until all samples are taken, another limit of the settings is reached or `stop` becomes true.
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
 
-// The image with its layers and metadata, ready for write_output().
-LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished);
+// The image with its layers and metadata, ready for write_output(); with layers for each replicate if they are wanted.
+LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished,
+                            bool replicate_layers = false);
 // All numbers but the seconds of loading, which the caller knows.
 RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender& finished);
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace etd {
 
@@ -93,6 +92,25 @@ double bonferroni_level(double family, uint64_t tests) {
 double sidak_combined(double smallest_p, uint64_t tests) {
   if (smallest_p >= 1.0) return 1.0;
   return -std::expm1(static_cast<double>(tests) * std::log1p(-smallest_p));
+}
+
+std::vector<double> holm_corrected(std::span<const double> p_values) {
+  std::vector<size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) { return p_values[i] < p_values[j]; });
+  std::vector<double> corrected(p_values.size());
+  double largest = 0;
+  for (size_t rank = 0; rank < order.size(); ++rank) {
+    largest = std::max(largest, static_cast<double>(order.size() - rank) * p_values[order[rank]]);
+    corrected[order[rank]] = std::min(largest, 1.0);
+  }
+  return corrected;
+}
+
+// The sum of the tail is an incomplete beta function (Abramowitz and Stegun 26.5.24).
+double binomial_at_least(double k, double n, double p) {
+  if (k <= 0) return 1.0;
+  return k > n ? 0.0 : beta_regularised(k, n - k + 1, p);
 }
 
 void RunningStats::add(double x) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace etd {
 
@@ -28,6 +29,13 @@ double sidak_level(double family, uint64_t tests);
 double bonferroni_level(double family, uint64_t tests);
 // The p-value of the smallest of `tests` independent p-values.
 double sidak_combined(double smallest_p, uint64_t tests);
+
+// The p-values of a family of tests, dependent or not, each corrected so that those below a level are, all together,
+// false with at most that probability (Holm 1979).
+std::vector<double> holm_corrected(std::span<const double> p_values);
+
+// The probability of at least k successes in n independent trials of probability p.
+double binomial_at_least(double k, double n, double p);
 
 // The mean of `count` numbers, with the variance of that mean.
 struct MeanEstimate {
