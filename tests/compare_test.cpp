@@ -17,7 +17,8 @@ Estimate noise(NoiseSettings s, uint64_t seed) {
   return make_estimate(noise_film(s));
 }
 
-// How often a p-value below `threshold` may be seen among n when its probability is that, but for one case in a million.
+// How often a p-value below `threshold` may be seen among n when its probability is that, but for one case in a
+// million.
 bool plausible(double count, double n, double threshold) { return binomial_at_least(count, n, threshold) > 1e-6; }
 
 struct Tally {

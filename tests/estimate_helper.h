@@ -28,7 +28,10 @@ struct NoiseSettings {
 // `factor(x, y)` multiplies the pixel's samples.
 template <class Factor>
 Film noise_film(const NoiseSettings& s, Factor&& factor) {
-  Film film({.width = s.side, .height = s.side, .crop = {0, 0, s.side, s.side}, .replicates = s.replicates,
+  Film film({.width = s.side,
+             .height = s.side,
+             .crop = {0, 0, s.side, s.side},
+             .replicates = s.replicates,
              .features = false});
   const uint32_t n = s.spp / s.replicates;
   for (int y = 0; y < s.side; ++y)

@@ -61,16 +61,7 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
           },
           "resolution of the full image, in pixels")
       ->type_name("WxH");
-  command
-      .add_option_function<std::string>(
-          "--crop",
-          [&o](const std::string& text) {
-            const auto v = parse_integers(text, ',', 4);
-            if (!v) throw CLI::ValidationError("--crop", "\"" + text + "\" is not x0,x1,y0,y1, as in 100,200,50,80");
-            o.crop = PixelBounds{(*v)[0], (*v)[2], (*v)[1], (*v)[3]};
-          },
-          "render only these pixels: x0 <= x < x1, y0 <= y < y1")
-      ->type_name("x0,x1,y0,y1");
+  add_crop_option(command, o.crop, "render only these pixels: x0 <= x < x1, y0 <= y < y1");
   add_value(command, "--spp", o.spp, "samples per pixel, rounded up to a multiple of the replicates", "N");
   add_value(command, "--replicates", o.replicates,
             "independent estimates that the samples are divided into (2); from 4 on their spread gives the error", "R");
@@ -103,6 +94,19 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
       ->take_all();
   command.add_flag_function(
       "--no-features", [&o](int64_t) { o.features = false; }, "leave out albedo, normal, depth and coverage");
+}
+
+void add_crop_option(CLI::App& command, std::optional<PixelBounds>& to, const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          "--crop",
+          [&to](const std::string& text) {
+            const auto v = parse_integers(text, ',', 4);
+            if (!v) throw CLI::ValidationError("--crop", "\"" + text + "\" is not x0,x1,y0,y1, as in 100,200,50,80");
+            to = PixelBounds{(*v)[0], (*v)[2], (*v)[1], (*v)[3]};
+          },
+          help)
+      ->type_name("x0,x1,y0,y1");
 }
 
 SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {

@@ -21,6 +21,8 @@ struct SceneArguments {
 void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);
 // --size, --spp, --set and the others that change what is rendered.
 void add_override_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);
+// --crop, which sets `to`; it must outlive the parsing.
+void add_crop_option(CLI::App& command, std::optional<PixelBounds>& to, const std::string& help);
 
 // Reads a scene in the language that the file's ending names; an unknown ending and everything wrong inside are
 // reported, and the description is as complete as could be read.

@@ -19,6 +19,7 @@ namespace {
 struct Arguments : SceneArguments {
   std::vector<std::string> outputs;
   std::string stats;
+  bool replicate_layers = false;
   WatchOptions watch;
 };
 
@@ -124,7 +125,7 @@ int render_scene(const Arguments& args) {
   watchers.end_progress();
   RenderStats stats = finished_stats(*prepared, finished);
   stats.load_seconds = load_seconds;
-  const bool written = write_all(args, outputs, finished_image(*prepared, finished), stats);
+  const bool written = write_all(args, outputs, finished_image(*prepared, finished, args.replicate_layers), stats);
   print_summary(*prepared, finished.result);
   watchers.end(finished.film);
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
@@ -179,6 +180,8 @@ void add_render(CLI::App& app, Run& run) {
           "side of a work item in pixels (16); changes the time and nothing else")
       ->type_name("N");
   command->add_option("--stats", args->stats, "write times, rays and memory as JSON")->type_name("FILE");
+  command->add_flag("--replicate-layers", args->replicate_layers,
+                    "add what each replicate sees to .exr files: layers replicate0, replicate1, ...");
   command->add_flag("--quiet", args->watch.quiet, "no progress");
   command->footer(kExamples);
   command->callback([args, &run] { run = [args] { return render_scene(*args); }; });

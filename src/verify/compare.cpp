@@ -92,8 +92,8 @@ Moment Comparison::moment(const Estimate& e, const PixelBounds& region, size_t c
 }
 
 // Few samples that all missed a rare bright path believe in a small variance. If both images come from one method, the
-// other's samples tell better; if they do not, the larger variance costs little power. Only the number of samples has to
-// be known.
+// other's samples tell better; if they do not, the larger variance costs little power. Only the number of samples has
+// to be known.
 Moment with_floor(Moment own, const Moment& other, double own_samples, double other_samples) {
   if (own_samples <= 0 || other_samples <= 0) return own;
   const double expected = other.variance * other_samples / own_samples;
@@ -173,8 +173,8 @@ Verdict compare(const Estimate& a, const Estimate& b, const CompareOptions& opti
     v.image.push_back(comparison.test({0, 0, a.width, a.height}, c));
     for (int y = 0; y < a.height; y += options.block)
       for (int x = 0; x < a.width; x += options.block) {
-        const RegionTest t = comparison.test(
-            {x, y, std::min(x + options.block, a.width), std::min(y + options.block, a.height)}, c);
+        const RegionTest t =
+            comparison.test({x, y, std::min(x + options.block, a.width), std::min(y + options.block, a.height)}, c);
         if (t.error == 0 && t.result.p_value == 1)
           ++v.left_out;
         else
@@ -186,7 +186,8 @@ Verdict compare(const Estimate& a, const Estimate& b, const CompareOptions& opti
   const auto of_region = [](const RegionTest& t) { return t.result.p_value; };
   correct(v.image, of_region, v.p_value);
   correct(v.blocks, of_region, v.p_value);
-  correct(v.histograms, [](const HistogramTest& h) { return h.p_value; }, v.p_value);
+  correct(
+      v.histograms, [](const HistogramTest& h) { return h.p_value; }, v.p_value);
   v.same = v.p_value >= options.level && !v.not_finite_in_one;
   return v;
 }

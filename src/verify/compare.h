@@ -26,8 +26,8 @@ struct RegionTest {
   double corrected = 1;  // p-value, corrected for all tests of the verdict
 };
 
-// The p-values of a channel's blocks against the uniform distribution that they have when nothing differs: too many small
-// ones mean that something does, though no block may show it by itself.
+// The p-values of a channel's blocks against the uniform distribution that they have when nothing differs: too many
+// small ones mean that something does, though no block may show it by itself.
 struct HistogramTest {
   static constexpr size_t kBins = 20;
   int channel = 0;

@@ -67,6 +67,7 @@ std::string read_input(const fs::path& path, fs::path error_path, const Differen
   Picture error;
   if (std::string problem = read_picture(error_path, "", image, error); !problem.empty()) return problem;
   input.estimate = make_estimate(input.picture, error, options.runs);
+  if (!input.estimate.estimate) return fmt::format("{}: {}", error_path.string(), input.estimate.problem);
   notes.push_back(fmt::format("the standard error of {} is {}, taken for that of {} runs", path.string(),
                               error_path.string(), options.runs));
   return {};
@@ -145,9 +146,10 @@ void judge(const DifferenceOptions& options, Difference& d, std::optional<Estima
     if (options.correlated && !options.expected) b->correlated = true;
     for (const Estimate* e : {&*a, &*b})
       if (e->correlated && e->replicates.size() < 2)
-        d.no_verdict = fmt::format("{}: pixels are correlated, and only replicates (render --replicate-layers) tell "
-                                   "the error of a region then",
-                                   e == &*a ? d.name_a : d.name_b);
+        d.no_verdict = fmt::format(
+            "{}: pixels are correlated, and only replicates (render --replicate-layers) tell "
+            "the error of a region then",
+            e == &*a ? d.name_a : d.name_b);
     if (d.no_verdict.empty()) d.verdict = compare(*a, *b, options.compare);
   }
   d.worst = worst_pixels(d, a ? &*a : nullptr, b ? &*b : nullptr);

@@ -124,8 +124,8 @@ std::string difference_text(const Difference& d) {
   text += metrics_text(d.metrics);
   for (size_t i = 0; i < std::min(d.worst.size(), kShownPixels); ++i) {
     const WorstPixel& p = d.worst[i];
-    text += fmt::format("pixel {},{}: {:.4g} {:.4g} {:.4g} and {:.4g} {:.4g} {:.4g}, {:.2g} % of the relMSE\n", p.x, p.y,
-                        p.a[0], p.a[1], p.a[2], p.b[0], p.b[1], p.b[2], 100 * p.share);
+    text += fmt::format("pixel {},{}: {:.4g} {:.4g} {:.4g} and {:.4g} {:.4g} {:.4g}, {:.2g} % of the relMSE\n", p.x,
+                        p.y, p.a[0], p.a[1], p.a[2], p.b[0], p.b[1], p.b[2], 100 * p.share);
   }
   for (const std::string& note : d.notes) text += "note: " + note + "\n";
   if (d.verdict) return text + verdict_text(d, *d.verdict);

@@ -89,7 +89,8 @@ EstimateResult make_estimate(const LayeredImage& image) {
   e.samples = *spp;
   e.dof = *replicates >= static_cast<int>(kReplicatesForSpread) ? *replicates - 1.0 : *spp - 1.0;
   e.correlated = is_correlated(image);
-  if (*spp < 2 || !set_variance(e, error.rgb)) return {{}, "it has pixels with a single sample, whose error is unknown"};
+  if (*spp < 2 || !set_variance(e, error.rgb))
+    return {{}, "it has pixels with a single sample, whose error is unknown"};
   for (int r = 0; r < *replicates; ++r) {
     const LayerResult layer = layer_rgb(image, fmt::format("replicate{}", r));
     if (!layer.error.empty()) break;
@@ -101,13 +102,13 @@ EstimateResult make_estimate(const LayeredImage& image) {
 EstimateResult make_estimate(const Picture& picture, const Picture& standard_error, int runs) {
   if (picture.width != standard_error.width || picture.height != standard_error.height)
     return {{},
-            fmt::format("its standard error has {} x {} pixels, the picture {} x {}", standard_error.width,
+            fmt::format("the standard error has {} x {} pixels, the picture {} x {}", standard_error.width,
                         standard_error.height, picture.width, picture.height)};
   Estimate e;
   e.width = picture.width, e.height = picture.height;
   e.mean = to_pixels(picture.rgb);
   e.dof = runs - 1;
-  if (!set_variance(e, standard_error.rgb)) return {{}, "its standard error is not finite in some pixels"};
+  if (!set_variance(e, standard_error.rgb)) return {{}, "the standard error is not finite in some pixels"};
   return {std::move(e), {}};
 }
 

@@ -23,8 +23,8 @@ struct Estimate {
   double samples = 0;         // behind each pixel; 0 when unknown, or when there are none because the values are exact
   // Means of the independent replicates that `mean` is made of; empty when they are not known.
   std::vector<std::vector<Rgb>> replicates;
-  // Whether the errors of pixels depend on each other, as those of photons or Markov chains do. Then only the replicates
-  // tell the error of a region.
+  // Whether the errors of pixels depend on each other, as those of photons or Markov chains do. Then only the
+  // replicates tell the error of a region.
   bool correlated = false;
 };
 
