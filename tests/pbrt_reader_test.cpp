@@ -240,7 +240,7 @@ TEST(PbrtReader, UnsupportedModelsAreReplacedWhenAllowed) {
 Material "hair" "rgb color" [ 0.1 0.2 0.3 ] "float beta_m" 0.1
 Shape "loopsubdiv" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2]
 Shape "curve"
-Texture "m" "spectrum" "marble" "integer octaves" 4)",
+Texture "m" "spectrum" "ptex" "string filename" "m.ptx")",
                   true);
   EXPECT_EQ(r.diagnostics.error_count(), 0);
   EXPECT_EQ(r.diagnostics.all().size(), 4u);

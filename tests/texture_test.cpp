@@ -3,35 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "model_uses.h"
 #include "spectrum/srgb.h"
-#include "temp_folder.h"
-#include "textures/resolve.h"
+#include "texture_table.h"
 
 namespace etd {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// A table with textures made one after the other, as a scene would.
-class Textures {
- public:
-  // Builds one, which later ones can refer to by name.
-  SpectrumSource add(const std::string& name, const ModelUse& use, bool is_float = false) {
-    for (const ModelDecl* decl : texture_models())
-      if (decl->name == use.model) check_params(*decl, use, diagnostics);
-    builder_.add(name, is_float, use, diagnostics);
-    return {{}, static_cast<int32_t>(table.textures.size()) - 1};
-  }
-  Spectrum at(const SpectrumSource& source, float u, float v) const { return table.eval(source, {{u, v}}); }
-
-  TempFolder folder;
-  Diagnostics diagnostics;
-  TextureTable table;
-
- private:
-  TextureBuilder builder_{table, folder.path()};
-};
 
 // 3 x 2 texels of 8 bits; the file's rows go from the top down.
 //   10 20 30

@@ -36,7 +36,9 @@ Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord
   if (area == 0.0f) return n;
   TexCoord beside = at, above = at;
   beside.uv.x += kStep;
+  beside.p = at.p + point.dpdu * kStep;
   above.uv.y += kStep;
+  above.p = at.p + point.dpdv * kStep;
   const float d = textures.eval(height, at);
   const float d_u = (textures.eval(height, beside) - d) / kStep, d_v = (textures.eval(height, above) - d) / kStep;
   const Vec3 gradient = (cross(point.dpdv, n) * d_u + cross(n, point.dpdu) * d_v) * (1.0f / area);

@@ -35,7 +35,7 @@ class TextureOrder {
     if (state_[i] == State::kBuilding) {
       diagnostics_.error(t.use.loc, fmt::format("texture \"{}\" refers to itself", t.name));
       // A stand-in, so that the textures of the cycle are not reported as missing too.
-      builder_.add(t.name, t.is_float, {"constant", {}, t.use.loc}, diagnostics_);
+      builder_.add(t.name, t.is_float, {"constant", {}, t.use.loc}, t.to_world, diagnostics_);
       return;
     }
     state_[i] = State::kBuilding;
@@ -47,7 +47,7 @@ class TextureOrder {
       const bool is_float = t.is_float || declared->type == ParamType::kFloatTexture;
       if (const auto it = names_.find({p.strings[0], is_float}); it != names_.end()) build(it->second);
     }
-    builder_.add(t.name, t.is_float, t.use, diagnostics_);
+    builder_.add(t.name, t.is_float, t.use, t.to_world, diagnostics_);
     state_[i] = State::kBuilt;
   }
 
@@ -104,6 +104,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   compile_geometry(description, material_of, textures, *scene, diagnostics);
+  textures.recentre(scene->origin);
 
   compile_lights(description, *scene, diagnostics);
 

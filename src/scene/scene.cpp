@@ -21,7 +21,7 @@ float number_of(const Ray& r, const Hit& hit) {
 bool Scene::is_hole(const Ray& ray, const Hit& hit) const {
   const SurfaceBinding& binding = binding_of(hit);
   if (!binding.has_holes) return false;
-  const float alpha = textures.eval(binding.alpha, {surface_point(geometry, hit).uv});
+  const float alpha = textures.eval(binding.alpha, point_coord(surface_point(geometry, hit)));
   return !(alpha >= 1.0f) && !(number_of(ray, hit) < alpha);
 }
 
@@ -46,7 +46,7 @@ SurfaceHit Scene::surface(const Hit& hit) const {
 }
 
 Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
-  const TexCoord at{surface.point.uv};
+  const TexCoord at = point_coord(surface.point);
   const Material& material = surface.material->resolve(at, textures, materials, rng);
   return {material.closure(at, textures), material.frame(surface.point, at, textures)};
 }

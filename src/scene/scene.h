@@ -62,8 +62,9 @@ class Scene {
   // Share of a light's surface that is there: what is sampled on it shines with this factor. Scattering finds it with
   // this probability in the first place.
   float light_alpha(uint32_t light, const SurfacePoint& on_light) const {
-    return light < light_alphas.size() ? std::clamp(textures.eval(light_alphas[light], {on_light.uv}), 0.0f, 1.0f)
-                                       : 1.0f;
+    return light < light_alphas.size()
+               ? std::clamp(textures.eval(light_alphas[light], point_coord(on_light)), 0.0f, 1.0f)
+               : 1.0f;
   }
   SurfaceHit surface(const Hit& hit) const;
   // How the surface scatters there. `rng` decides between mixed materials.
@@ -90,6 +91,8 @@ class Scene {
   SceneSummary summary;
 
  private:
+  // Where textures are looked up at a point, without a footprint.
+  static TexCoord point_coord(const SurfacePoint& s) { return {s.uv, s.p, s.ng}; }
   const SurfaceBinding& binding_of(const Hit& hit) const {
     if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
     return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "core/affine.h"
 #include "core/bounds.h"
 #include "core/transform.h"
-#include "shapes/affine.h"
 #include "shapes/surface_point.h"
 
 namespace etd {

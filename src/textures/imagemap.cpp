@@ -3,7 +3,7 @@
 namespace etd {
 
 const ModelDecl& ImageMapTexture::decl() {
-  static const ModelDecl d = with_uv_mapping(
+  static const ModelDecl d = with_mapping(
       {Family::kTexture,
        "imagemap",
        "An image file; of a float texture, its alpha if it is anywhere below 1, otherwise the mean of its colours.",
@@ -44,7 +44,7 @@ bool has_alpha(const Image& img) {
 
 }  // namespace
 
-ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b, bool is_float) {
+ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b) {
   ImageMapTexture t;
   const std::string filter = p.string("filter"), wrap = p.string("wrap");
   t.nearest = filter == "point";
@@ -52,13 +52,13 @@ ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b,
            : wrap == "clamp"            ? Wrap::kClamp
            : wrap == "octahedralsphere" ? Wrap::kOctahedralSphere
                                         : Wrap::kRepeat;
-  t.mapping = UvMapping::create(p);
+  t.mapping = Mapping2::create(p, b);
   t.scale = static_cast<float>(p.number("scale"));
   t.invert = p.boolean("invert");
   const Param* encoding = p.given("encoding");
   if (const Param* file = p.given("filename"))
     t.image = b.image(*file, encoding ? encoding->strings[0] : "sRGB", p.diagnostics());
-  if (is_float) t.channels = t.image >= 0 && has_alpha(b.image_at(t.image)) ? Channels::kAlpha : Channels::kMean;
+  if (b.is_float()) t.channels = t.image >= 0 && has_alpha(b.image_at(t.image)) ? Channels::kAlpha : Channels::kMean;
   return t;
 }
 
@@ -102,7 +102,7 @@ Spectrum ImageMapTexture::texel(const Image& img, int x, int y) const {
 
 Spectrum ImageMapTexture::eval(const TexCoord& at, const TextureTable& table) const {
   const Image& img = table.images[static_cast<size_t>(image)];
-  const Vec2 st = mapping(at.uv);
+  const Vec2 st = mapping(at, table).st;
   // Far outside, whole repetitions are taken off first so that float coordinates keep their precision.
   const bool repeats = wrap == Wrap::kRepeat;
   const float s = repeats ? st.x - std::floor(st.x) : clamp(st.x, -1.0f, 2.0f);

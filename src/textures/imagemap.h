@@ -1,8 +1,8 @@
-// An image over uv: (0, 0) is its lower left corner. Bilinear between texel centres on the finest level.
+// An image over s and t: (0, 0) is its lower left corner. Bilinear between texel centres on the finest level.
 #pragma once
 
+#include "textures/mapping.h"
 #include "textures/resolve.h"
-#include "textures/uv_mapping.h"
 
 namespace etd {
 
@@ -13,14 +13,14 @@ struct ImageMapTexture {
   enum class Channels : uint8_t { kColor, kMean, kAlpha };
 
   int32_t image = -1;
-  UvMapping mapping;
+  Mapping2 mapping;
   float scale = 1;
   bool invert = false, nearest = false;
   Channels channels = Channels::kColor;
   Wrap wrap = Wrap::kRepeat;
 
   static const ModelDecl& decl();
-  static ImageMapTexture create(const ParamReader& p, TextureBuilder& b, bool is_float);
+  static ImageMapTexture create(const ParamReader& p, TextureBuilder& b);
 
   Spectrum eval(const TexCoord& at, const TextureTable& table) const;
 

@@ -80,7 +80,7 @@ Spectrum emission_value(const ParamReader& params, std::string_view name) {
 
 SpectrumSource TextureBuilder::spectrum(const ParamReader& params, std::string_view name) const {
   const Param* p = params.given(name);
-  if (p && p->kind == ParamKind::kTexture) return {{}, find(*p, inside_float_, params.diagnostics())};
+  if (p && p->kind == ParamKind::kTexture) return {{}, find(*p, is_float_, params.diagnostics())};
   return {spectrum_value(params, name), -1};
 }
 
@@ -88,6 +88,22 @@ FloatSource TextureBuilder::number(const ParamReader& params, std::string_view n
   const Param* p = params.given(name);
   if (p && p->kind == ParamKind::kTexture) return {0.0f, find(*p, true, params.diagnostics())};
   return {static_cast<float>(params.number(name)), -1};
+}
+
+int32_t TextureBuilder::space(const ParamReader& params) {
+  if (to_world_.is_singular())
+    params.diagnostics().error(params.use().loc,
+                               fmt::format("the transform of this {} texture is singular", params.use().model));
+  if (spaces_.empty() || !(spaces_.back() == to_world_)) {
+    spaces_.push_back(to_world_);
+    table_.spaces.emplace_back(to_world_.inverse_matrix());
+  }
+  return static_cast<int32_t>(spaces_.size()) - 1;
+}
+
+void TextureBuilder::recentre(Vec3d origin) {
+  for (size_t i = 0; i < spaces_.size(); ++i)
+    table_.spaces[i] = Affine((spaces_[i].inverse() * Transform::translate(origin)).matrix());
 }
 
 int32_t TextureBuilder::find(const Param& reference, bool is_float, Diagnostics& diagnostics) const {

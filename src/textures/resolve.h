@@ -7,10 +7,14 @@
 #include <span>
 #include <string>
 
+#include "core/transform.h"
 #include "params/declaration.h"
 #include "textures/texture.h"
 
 namespace etd {
+
+// Which textures a model makes; a model without a member kKind makes both.
+enum class TextureKind : uint8_t { kFloat, kSpectrum };
 
 // The RGB value of a spectrum parameter (rgb, float, spectrum, blackbody), or of its declared default, clamped where
 // the declaration says so. Spectra become the mean seen under D65 (reflectance_rgb); unknown names are errors.
@@ -24,7 +28,16 @@ class TextureBuilder {
   TextureBuilder(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
 
   // Builds a checked use, whose children must have been built before. A float texture is made of float textures only.
-  void add(const std::string& name, bool is_float, const ModelUse& use, Diagnostics& diagnostics);
+  void add(const std::string& name, bool is_float, const ModelUse& use, const Transform& to_world,
+           Diagnostics& diagnostics);
+  // Call once when the world's origin is known: its coordinates are those of the scene file minus `origin`.
+  void recentre(Vec3d origin);
+
+  // For the texture that is being built: whether it is a float texture, where it was defined, and that as a space of
+  // the table (an error if the transform is singular).
+  bool is_float() const { return is_float_; }
+  const Transform& to_world() const { return to_world_; }
+  int32_t space(const ParamReader& params);
 
   SpectrumSource spectrum(const ParamReader& params, std::string_view name) const;
   FloatSource number(const ParamReader& params, std::string_view name) const;
@@ -39,7 +52,9 @@ class TextureBuilder {
 
   TextureTable& table_;
   std::filesystem::path folder_;
-  bool inside_float_ = false;  // while a float texture is built
+  bool is_float_ = false;  // while a float texture is built
+  Transform to_world_;
+  std::vector<Transform> spaces_;  // to the world, of those of the table
   std::map<std::pair<std::string, bool>, int32_t> names_;
   std::map<std::pair<std::string, std::string>, int32_t> images_;
 };

@@ -5,16 +5,21 @@
 #include <memory>
 #include <vector>
 
+#include "core/affine.h"
 #include "core/tagged.h"
-#include "core/vec.h"
 #include "io/image.h"
 #include "spectrum/spectrum.h"
 
 namespace etd {
 
-// Where on the surface a texture is looked up.
+// Where on a surface a texture is looked up, and over how much of it: the footprint is the parallelogram that one step
+// of a pixel along each axis of the film covers. Zero is a point.
 struct TexCoord {
   Vec2 uv;
+  Point3 p = {};                  // in the recentred world
+  Vec3 n = {};                    // unit geometric normal, on either side
+  Vec3 dp_dx = {}, dp_dy = {};    // change of p
+  Vec2 duv_dx = {}, duv_dy = {};  // and of uv, over the footprint
 };
 
 // A parameter that may be textured: a constant, or a texture of the table.
@@ -36,7 +41,7 @@ class Texture {
   Spectrum eval(const TexCoord& at, const TextureTable& table) const;
 
  private:
-  TaggedStorage<96> storage_;
+  TaggedStorage<128> storage_;
 };
 
 // All textures and images of a scene; const while rendering.
@@ -52,6 +57,7 @@ class TextureTable {
 
   std::vector<Texture> textures;
   std::vector<Image> images;
+  std::vector<Affine> spaces;  // from the recentred world to the space in which a texture was defined
 };
 
 }  // namespace etd

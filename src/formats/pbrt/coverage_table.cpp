@@ -18,15 +18,7 @@ std::span<const UnsupportedModel> unsupported_models() {
       {Family::kMaterial, "hair", "diffuse", "a diffuse material of the same colour", {{"color", "reflectance"}}},
       {Family::kMaterial, "measured", "diffuse", "a diffuse material of reflectance 0.5", {}, {"reflectance", 0.5}},
 
-      {Family::kTexture, "bilerp", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "directionmix", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "dots", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "fbm", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "marble", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "mix", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
       {Family::kTexture, "ptex", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "windy", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
-      {Family::kTexture, "wrinkled", "constant", "a constant texture of value 0.5", {}, {"value", 0.5}},
 
       {Family::kCamera, "realistic", "perspective", "a perspective camera of the default field of view"},
 
@@ -65,10 +57,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
 
-      {Family::kTexture, "", "mapping", "uv", "the uv mapping"},
-      {Family::kTexture, "", "v1", "*", "only the planar mapping reads it"},
-      {Family::kTexture, "", "v2", "*", "only the planar mapping reads it"},
-      {Family::kTexture, "checkerboard", "dimension", "2", "a pattern of 2 dimensions"},
       {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
 
       {Family::kLight, "infinite", "portal", "", "light from all directions"},
