@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "core/animated_transform.h"
 #include "lights/environment_map.h"
 
 namespace etd {
@@ -10,6 +11,7 @@ namespace etd {
 struct LightData {
   std::deque<EnvironmentMap> environments;
   std::deque<Image> images;
+  std::deque<AnimatedTransform> motions;
 
   size_t bytes() const {
     size_t sum = 0;
