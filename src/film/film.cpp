@@ -27,7 +27,7 @@ std::array<double, 4> spread_of_replicates(const std::vector<std::array<double, 
 
 Film::Film(const FilmSettings& settings)
     : settings_(settings),
-      sums_(pixel_count(settings.crop) * settings.replicates * film_channels(settings.features), 0.0),
+      sums_(pixel_count(settings.crop) * settings.replicates * film_channels(settings), 0.0),
       strongest_(pixel_count(settings.crop)) {
   const PixelBounds& c = settings_.crop;
   assert(settings_.replicates > 0);
@@ -43,18 +43,18 @@ size_t Film::pixel(int x, int y) const {
 
 size_t Film::offset(int x, int y, uint32_t replicate) const {
   assert(replicate < settings_.replicates);
-  return (pixel(x, y) * settings_.replicates + replicate) * film_channels(settings_.features);
+  return (pixel(x, y) * settings_.replicates + replicate) * film_channels(settings_);
 }
 
 void Film::add(int x, int y, uint32_t replicate, const PixelSums& sums) {
   double* to = sums_.data() + offset(x, y, replicate);
-  for_each_channel(sums, settings_.features, [&to](double v) { *to++ += v; });
+  for_each_channel(sums, settings_, [&to](double v) { *to++ += v; });
 }
 
 PixelSums Film::sums(int x, int y, uint32_t replicate) const {
   PixelSums result;
   const double* from = sums_.data() + offset(x, y, replicate);
-  for_each_channel(result, settings_.features, [&from](double& v) { v = *from++; });
+  for_each_channel(result, settings_, [&from](double& v) { v = *from++; });
   return result;
 }
 
@@ -94,7 +94,7 @@ std::array<double, 4> Film::standard_error(int x, int y) const {
 size_t Film::bytes() const { return bytes_for(settings_); }
 
 size_t Film::bytes_for(const FilmSettings& s) {
-  return pixel_count(s.crop) * (s.replicates * film_channels(s.features) * sizeof(double) + sizeof(StrongestSample));
+  return pixel_count(s.crop) * (s.replicates * film_channels(s) * sizeof(double) + sizeof(StrongestSample));
 }
 
 }  // namespace etd

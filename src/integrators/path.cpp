@@ -192,6 +192,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
       out.albedo = bsdf.albedo(shading.frame.to_local(wo));
       out.normal = face_forward(shading.frame.z, wo);
+      out.position = point.p - Point3();
       out.depth = path_length;
       out.coverage = 1.0f;
       features_pending = false;

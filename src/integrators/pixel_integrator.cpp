@@ -54,6 +54,7 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCoun
           PixelSample s = sample(x, y, replicate, index);
           const uint32_t number = index * context_.replicates + replicate;
           if (!is_sound(s)) counts.invalid.take_out({x, y, number}, s);
+          film.settings().sensor.expose(s);
           strongest.offer({static_cast<float>(sums.add(s)), number});
           counts.rays += s.rays;
         }

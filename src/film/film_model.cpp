@@ -1,4 +1,4 @@
-#include "film/rgb_film.h"
+#include "film/film_model.h"
 
 #include <fmt/format.h>
 
@@ -31,8 +31,8 @@ PixelBounds scale_outward(const std::vector<int32_t>& b, double x, double y) {
 }  // namespace
 
 const ModelDecl& rgb_film_decl() {
-  static const ModelDecl decl{
-      .family = Family::kFilm,
+  static const ModelDecl decl = with_params(
+      {.family = Family::kFilm,
       .name = "rgb",
       .doc = "An image of linear Rec.709 colour, with layers for the components of light, features and errors.",
       .params = {
@@ -65,21 +65,44 @@ const ModelDecl& rgb_film_decl() {
            .type = ParamType::kString,
            .default_value = std::string("pbrt.exr"),
            .doc = "Name of the image that is written to the current folder when the command line names none."},
-      }};
+          {.name = "savefp16",
+           .type = ParamType::kBool,
+           .default_value = false,
+           .doc = "EXR files hold 16-bit floats: half the size, three digits, 65504 at most. (pbrt's default is true.)"},
+      }}, {Sensor::params()});
+  return decl;
+}
+
+const ModelDecl& gbuffer_film_decl() {
+  static const ModelDecl decl = with_params(
+      {.family = Family::kFilm,
+       .name = "gbuffer",
+       .doc = "The film \"rgb\" with one more layer, of positions; it and normals are in the space that is wanted.",
+       .params = {}},
+      {rgb_film_decl().params,
+       {{.name = "coordinatesystem",
+         .type = ParamType::kString,
+         .default_value = std::string("camera"),
+         .choices = {"camera", "world"},
+         .doc = "The space of the layers of normals and positions."}}});
   return decl;
 }
 
 std::span<const ModelDecl* const> film_models() {
-  static const std::array<const ModelDecl*, 1> all{&rgb_film_decl()};
+  static const std::array<const ModelDecl*, 2> all{&rgb_film_decl(), &gbuffer_film_decl()};
   return all;
 }
 
-RgbFilm read_rgb_film(const ParamReader& reader, std::optional<std::pair<int, int>> size) {
+FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int, int>> size, double shutter) {
   const int own_width = reader.integer("xresolution"), own_height = reader.integer("yresolution");
-  RgbFilm film;
+  FilmModel film;
   film.width = size ? size->first : own_width;
   film.height = size ? size->second : own_height;
   film.filename = reader.string("filename");
+  film.half = reader.boolean("savefp16");
+  film.sensor = Sensor::create(reader, shutter);
+  film.positions = reader.decl().name == "gbuffer";
+  film.in_camera_space = film.positions && reader.string("coordinatesystem") == "camera";
   const PixelBounds whole{0, 0, film.width, film.height};
   film.crop = whole;
 
@@ -88,7 +111,7 @@ RgbFilm read_rgb_film(const ParamReader& reader, std::optional<std::pair<int, in
   const Param* bounds = reader.given("pixelbounds");
   for (const Param* p : {window, bounds})
     if (p && p->numbers.size() + p->integers.size() != 4) {
-      diagnostics.error(p->loc, fmt::format("parameter \"{}\" of film \"rgb\" takes 4 numbers", p->name),
+      diagnostics.error(p->loc, fmt::format("parameter \"{}\" of film \"{}\" takes 4 numbers", p->name, reader.decl().name),
                         "they are x0 x1 y0 y1");
       return film;
     }
