@@ -24,11 +24,9 @@ struct Scene {
   std::string name;
   uint32_t spp_naive, spp_next_event, spp_mis;
 };
-const Scene kScenes[] = {{"conductor_box", 1024, 512, 256},
-                         {"textured_room", 1024, 256, 256},
-                         {"sky_instances", 512, 512, 128},
-                         {"glass_caustic", 1024, 512, 512},
-                         {"lamps", 2048, 1024, 1024}};
+const Scene kScenes[] = {{"conductor_box", 1024, 512, 256}, {"textured_room", 1024, 256, 256},
+                         {"sky_instances", 512, 512, 128},  {"glass_caustic", 1024, 512, 512},
+                         {"lamps", 2048, 1024, 1024},       {"window_room", 1024, 256, 256}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
