@@ -29,7 +29,8 @@ const Scene kScenes[] = {{"conductor_box", 1024, 512, 256},
                          {"sky_instances", 512, 512, 128},
                          {"glass_caustic", 1024, 512, 512},
                          {"lamps", 2048, 1024, 1024},
-                         {"moving_lamps", 1024, 512, 512}};
+                         {"moving_lamps", 1024, 512, 512},
+                         {"window_room", 1024, 256, 256}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {

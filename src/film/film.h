@@ -21,8 +21,8 @@ struct FilmSettings {
   uint32_t replicates = 2;
   bool features = true;     // albedo, normal, depth, coverage
   bool positions = false;   // beside the features, if there are any
-  Transform feature_space;  // from the recentred world to the space of the layers of normals and positions
-  Sensor sensor;            // through which samples go before they are added
+  Transform feature_space{};  // from the recentred world to the space of the layers of normals and positions
+  Sensor sensor{};            // through which samples go before they are added
 };
 
 class Film {

@@ -59,7 +59,7 @@ std::string PathIntegrator::bias() const {
   const bool delta =
       std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& l) { return l.is_delta(); });
   std::string bias;
-  if (settings_.mode == PathMode::kNaive && delta) bias = "lights without extent, which no ray meets, are left out";
+  if (settings_.mode == PathMode::kNaive && delta) bias = "lights that no ray meets are left out";
   if (settings_.indirect)
     bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
                         settings_.max_depth);
@@ -153,7 +153,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   };
   // Emission that scattering found, weighted: light sampling could have found it with density pdf_light.
   const auto add_emission = [&](int depth, uint32_t light, const SurfacePoint* on_light) {
-    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, ray.time);
+    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, ray.o, ray.time);
     if (is_black(radiance)) return;
     float pdf_light = 0.0f, weight = 1.0f;
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;

@@ -7,6 +7,7 @@
 #include "lights/goniometric.h"
 #include "lights/image_infinite.h"
 #include "lights/point.h"
+#include "lights/portal_infinite.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 #include "shapes/placement.h"
@@ -16,8 +17,8 @@ namespace etd {
 namespace {
 using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
                         DiffuseAreaLight<PatchSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
-                        ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
-                        PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+                        ImageInfiniteLight, PortalInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
+                        PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
 
 template <class T>
@@ -30,6 +31,7 @@ template Light::Light(const DiffuseAreaLight<PatchSurface>&);
 template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
 template Light::Light(const ImageInfiniteLight&);
+template Light::Light(const PortalInfiniteLight&);
 template Light::Light(const DistantLight&);
 template Light::Light(const PointLight<IsotropicIntensity>&);
 template Light::Light(const PointLight<SpotIntensity>&);
@@ -61,10 +63,15 @@ float Light::pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSam
   return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, sampling); });
 }
 
-Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, float time) const {
+Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from, float time) const {
   // What a surface emits depends on nothing that changes when both it and w move.
   if (motion_ && !on_light) w = normalize(placement_at(*motion_, time).to_object.vector(w));
-  return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) { return l.emitted(on_light, w); });
+  return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) {
+    if constexpr (std::is_same_v<decltype(l), const PortalInfiniteLight&>)
+      return l.emitted(on_light, w, seen_from);
+    else
+      return l.emitted(on_light, w);
+  });
 }
 
 Spectrum Light::power() const {
@@ -90,6 +97,7 @@ std::optional<Light> make_light(const ModelUse& use, const LightContext& context
   const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
   if (use.model == "infinite") {
     const ParamReader p = reader(infinite_decl());
+    if (p.given("portal")) return light(PortalInfiniteLight::create(p, context));
     return p.given("filename") ? light(ImageInfiniteLight::create(p, context))
                                : light(ConstantInfiniteLight::create(p, context));
   }

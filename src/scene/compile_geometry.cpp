@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "scene/check_transform.h"
 #include "scene/compile_lights.h"
@@ -45,7 +46,7 @@ class GeometryCompiler {
     const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
     scene_.origin = {center.x, center.y, center.z};
     reserve();
-    for (const PlacedShape& s : placed_.world) add(s, scene_.origin, scene_.geometry.groups[0], true);
+    add_all(placed_.world, scene_.origin, scene_.geometry.groups[0], true);
     add_groups();
     add_lights();
   }
@@ -94,11 +95,14 @@ class GeometryCompiler {
     const FloatSource alpha = textures_.number(p, "alpha");
     if (alpha.texture >= 0 || (alpha.value > 0 && alpha.value < 1)) alpha_[&s] = alpha;
     if (alpha.texture >= 0 || alpha.value > 0) return;
-    loaded_.erase(&s);
+    // An area light shines all the same, but nothing meets it.
     if (s.area_light >= 0)
-      diagnostics_.unsupported(s.use.find("alpha")->loc, "an area light that shines but is not there (alpha 0)",
-                               "no surface and no light");
+      invisible_.insert(&s);
+    else
+      loaded_.erase(&s);
   }
+
+  bool is_invisible(const PlacedShape& s) const { return invisible_.count(s.shape) > 0; }
 
   // Corners of the shape in its space: vertices of meshes, or of the box around a quadric.
   void extend(Bounds3& bounds, const PlacedShape& placed) const {
@@ -171,7 +175,16 @@ class GeometryCompiler {
     scene_.geometry.quadrics.reserve(count);
   }
 
-  // `may_emit`: the group is in one place alone.
+  // `may_emit`: the group is in one place alone. Surfaces of invisible lights are there for sampling, in a group that
+  // nothing refers to; they come last, because a group's quadrics stand in a row.
+  void add_all(const std::vector<PlacedShape>& shapes, Vec3d origin, GeometryGroup& group, bool may_emit) {
+    GeometryGroup unseen;
+    for (const PlacedShape& s : shapes)
+      if (!is_invisible(s)) add(s, origin, group, may_emit);
+    for (const PlacedShape& s : shapes)
+      if (is_invisible(s)) add(s, origin, unseen, may_emit);
+  }
+
   void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group, bool may_emit) {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
@@ -240,7 +253,7 @@ class GeometryCompiler {
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const size_t before = scene_.summary.triangles, first_emitter = emitters_.size();
-      for (const PlacedShape& s : shapes.shapes) add(s, origin, group, !shapes.is_shared);
+      add_all(shapes.shapes, origin, group, !shapes.is_shared);
       triangles_seen += (scene_.summary.triangles - before) * shapes.instances.size();
       const auto index = static_cast<uint32_t>(scene_.geometry.groups.size());
       scene_.geometry.groups.push_back(std::move(group));
@@ -271,9 +284,10 @@ class GeometryCompiler {
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const size_t first = scene_.lights.size();
-      if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index);
-      if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index);
-      if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index);
+      const bool invisible = invisible_.count(e.shape) > 0;
+      if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index, invisible);
+      if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index, invisible);
+      if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index, invisible);
       for (size_t i = first; e.motion && i < scene_.lights.size(); ++i)
         scene_.lights[i] = scene_.lights[i].moving(*e.motion);
       scene_.names.lights.resize(scene_.lights.size(), {"area light", use.loc});
@@ -293,6 +307,7 @@ class GeometryCompiler {
   std::vector<Bounds3> group_bounds_;  // of placed_.groups, in their own space
   std::map<const ShapeDesc*, ShapeGeometry> loaded_;
   std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
+  std::set<const ShapeDesc*> invisible_;           // lights of alpha 0
   std::vector<Emitter> emitters_;
 };
 

@@ -61,10 +61,11 @@ int points_for(const AreaEmission& emission, size_t surfaces) {
 
 }  // namespace
 
-AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
+AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
   const ParamReader p(diffuse_area_decl(), use, diagnostics_);
   AreaEmission e;
   e.two_sided = p.boolean("twosided");
+  e.invisible = invisible;
   if (!p.given("filename")) {
     e.radiance = emission_value(p, "L");
     return e;
@@ -79,9 +80,9 @@ AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
   return e;
 }
 
-void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
+void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invisible) {
   const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
-  const AreaEmission e = emission(use);
+  const AreaEmission e = emission(use, invisible);
   auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
   auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power",
@@ -94,11 +95,11 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
   ++scene_.summary.lights[use.model + " area light"];
 }
 
-void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index) {
+void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool invisible) {
   const PatchMesh& mesh = scene_.geometry.patch_meshes[index];
   std::vector<PatchSurface> surfaces;
   for (uint32_t i = 0; i < mesh.patches.size(); ++i) surfaces.emplace_back(mesh, i);
-  const AreaEmission e = emission(use);
+  const AreaEmission e = emission(use, invisible);
   const auto lights = lights_on(surfaces, e, points_for(e, surfaces.size()));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", total_power(lights));
   scene_.patch_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
@@ -109,8 +110,8 @@ void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index) {
   ++scene_.summary.lights[use.model + " area light"];
 }
 
-void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index) {
-  const AreaEmission e = emission(use);
+void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool invisible) {
+  const AreaEmission e = emission(use, invisible);
   const DiffuseAreaLight<QuadricSurface> light(e, QuadricSurface(scene_.geometry.quadrics[index]), points_for(e, 1));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", light.power());
   scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
@@ -129,7 +130,11 @@ std::optional<Light> make_moving_light(const LightDesc& desc, const std::filesys
   if (!motion.is_rigid())
     diagnostics.error(desc.use.loc, fmt::format("this {} light changes its size while it moves", desc.use.model),
                       "lights that are no shapes can only be translated and turned");
-  const auto light = make_light(desc.use, {size, folder, scene.light_data}, diagnostics);
+  if (const Param* portal = desc.use.find("portal")) {
+    diagnostics.error(portal->loc, "a light behind a portal can't move");
+    return {};
+  }
+  const auto light = make_light(desc.use, {size, folder, scene.light_data, {}}, diagnostics);
   scene.moves = true;
   return light ? std::optional(light->moving(motion)) : std::nullopt;
 }
@@ -144,8 +149,10 @@ void compile_lights(const SceneDescription& description, Scene& scene, Diagnosti
     const auto light =
         desc.to_world.is_moving()
             ? make_moving_light(desc, description.folder, scene, diagnostics)
-            : make_light(desc.use, {to_recentred * desc.to_world.start, description.folder, scene.light_data},
-                         diagnostics);
+            : make_light(
+                  desc.use,
+                  {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
+                  diagnostics);
     if (!light) continue;
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
