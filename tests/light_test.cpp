@@ -240,6 +240,11 @@ TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
   EXPECT_EQ(mixed[4], 0.0f);
   EXPECT_EQ(probabilities({area(1), infinite(0)}), (std::vector<float>{1, 0}));
   EXPECT_EQ(probabilities({infinite(1), area(0)}), (std::vector<float>{1, 0}));
+  const LightSampler alike(std::vector<Light>{area(1), infinite(1e6f), area(0), area(3)}, LightChoice::kUniform);
+  EXPECT_FLOAT_EQ(alike.probability(0), 1 / 3.0f);
+  EXPECT_FLOAT_EQ(alike.probability(1), 1 / 3.0f);
+  EXPECT_EQ(alike.probability(2), 0.0f);
+  EXPECT_FLOAT_EQ(alike.probability(3), 1 / 3.0f);
   EXPECT_FALSE(LightSampler(std::vector<Light>{area(0), infinite(0)}).sample(0.5));
   EXPECT_FALSE(LightSampler(std::vector<Light>{}).sample(0));
   EXPECT_FALSE(LightSampler().sample(0));

@@ -65,7 +65,7 @@ CellStats averaged(const ScatterModel& m, Vec3 wo, TransportMode mode, size_t n,
 // The smallest of many p-values, corrected for their number.
 class SmallestP {
  public:
-  SmallestP(const ScatterModel& m, std::string name) : result_{m.name, std::move(name), true, 0.0, 1.0, ""} {}
+  SmallestP(const ScatterModel& m, std::string name) : result_{m.name, std::move(name), true, 0.0, 1.0, "", nullptr} {}
   void add(const TestResult& t, const std::string& where, double a, double b) {
     ++tests_;
     if (t.p_value >= *result_.p_value) return;
