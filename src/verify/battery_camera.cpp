@@ -35,7 +35,6 @@ void check_rays(const Camera& camera, uint64_t seed, Worst& finite, Worst& same)
   }
 }
 
-
 // Rays through different points of the lens meet in one point: their distance from the middle one along it falls to
 // zero, at the same place for all.
 void check_focus(const Camera& camera, Worst& focus) {
@@ -81,6 +80,9 @@ Spread spread_at(const Camera& camera, Vec2 film) {
   return {length(cross(dx, dy)), std::abs(dot(cross(ox, oy), d))};
 }
 
+// Where pixels are wider, or turn faster, differences say nothing about the derivative.
+constexpr double kLargestPixel = 0.1, kSmallestCosine = 0.05;
+
 // Film points away from edges and from lines where the maps have kinks.
 template <class F>
 void for_film(F&& f) {
@@ -98,6 +100,7 @@ void check_spread(const std::string& model, const ModelUse& use, const Camera& c
     for_film([&](Vec2 p) {
       const Spread s = spread_at(camera, p);
       const double c = static_cast<double>(dot(camera.generate_ray({p, kMiddle, kTime}).d, axis));
+      if (s.solid_angle > kLargestPixel || c < kSmallestCosine) return;
       const double law = model == "perspective" ? s.solid_angle / (c * c * c) : s.area;
       if (constant == 0) constant = law;
       spread.add_relative(law, constant, [&] { return film_text(p); });
@@ -143,9 +146,8 @@ std::vector<BatterySubject> camera_subjects() {
   for (const ModelDecl* decl : models(Family::kCamera))
     for (const ModelUse& use : parameter_grid(*decl)) {
       const std::string name = setting_name(use);
-      subjects.push_back({"camera", decl->name, name, [name, use](const BatteryOptions& options) {
-                            return check_camera(name, use, options);
-                          }});
+      subjects.push_back({"camera", decl->name, name,
+                          [name, use](const BatteryOptions& options) { return check_camera(name, use, options); }});
     }
   return subjects;
 }

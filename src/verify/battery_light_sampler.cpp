@@ -22,7 +22,8 @@ std::vector<CheckResult> check_choice(const std::string& name, LightChoice choic
   for (int i = 0; i < kSteps; ++i) {
     const auto c = sampler.sample((i + 0.5) / kSteps);
     if (!c) continue;
-    told.add(c->probability == sampler.probability(c->light) ? 0.0 : 1.0, [&] { return light_examples()[c->light].name; });
+    told.add(c->probability == sampler.probability(c->light) ? 0.0 : 1.0,
+             [&] { return light_examples()[c->light].name; });
     share[c->light] += 1.0 / kSteps;
   }
   double finite = 0, infinite = 0;
@@ -33,8 +34,8 @@ std::vector<CheckResult> check_choice(const std::string& name, LightChoice choic
     const double of_its_kind = lights[i].is_infinite() ? LightSampler::kInfiniteShare / infinite
                                                        : (1.0 - LightSampler::kInfiniteShare) / finite;
     shares.add(std::abs(share[i] - p), where);
-    law.add(std::abs(p - (choice == LightChoice::kUniform ? 1.0 / static_cast<double>(lights.size())
-                                                          : of_its_kind * power)),
+    law.add(std::abs(
+                p - (choice == LightChoice::kUniform ? 1.0 / static_cast<double>(lights.size()) : of_its_kind * power)),
             where);
     complete.add(p > 0.0 || power == 0.0 ? 0.0 : 1.0, where);
   }
@@ -44,7 +45,8 @@ std::vector<CheckResult> check_choice(const std::string& name, LightChoice choic
 }  // namespace
 
 std::vector<BatterySubject> light_sampler_subjects() {
-  return {{"lightsampler", "power", "power", [](const BatteryOptions&) { return check_choice("power", LightChoice::kPower); }},
+  return {{"lightsampler", "power", "power",
+           [](const BatteryOptions&) { return check_choice("power", LightChoice::kPower); }},
           {"lightsampler", "uniform", "uniform",
            [](const BatteryOptions&) { return check_choice("uniform", LightChoice::kUniform); }}};
 }

@@ -52,9 +52,10 @@ std::vector<CheckResult> check_mix(const std::string& name, double amount, const
   HashStream rng(options.seed);
   double white = 0;
   for (double i = 0; i < n; ++i)
-    white += static_cast<double>(
-        scene.materials.at(3).resolve(at, scene.textures, scene.materials, rng).closure(at, scene.textures).albedo(
-            {0, 0, 1})[0]);
+    white += static_cast<double>(scene.materials.at(3)
+                                     .resolve(at, scene.textures, scene.materials, rng)
+                                     .closure(at, scene.textures)
+                                     .albedo({0, 0, 1})[0]);
   WorstP chosen(name, "share of the second material");
   const double error = std::sqrt(std::max(amount * (1.0 - amount) / n, 1e-16)), z = (white / n - amount) / error;
   chosen.add(z, normal_two_sided(z), [&] { return fmt::format("{:.5f} of {:.5f}", white / n, amount); });
@@ -80,9 +81,8 @@ std::vector<BatterySubject> material_subjects() {
     }
     for (const ModelUse& use : parameter_grid(*decl)) {
       const std::string name = setting_name(use);
-      subjects.push_back({"material", decl->name, name, [name, use](const BatteryOptions& options) {
-                            return check_material(name, use, options);
-                          }});
+      subjects.push_back({"material", decl->name, name,
+                          [name, use](const BatteryOptions& options) { return check_material(name, use, options); }});
     }
   }
   return subjects;

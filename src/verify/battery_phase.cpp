@@ -75,8 +75,8 @@ std::vector<BatterySubject> phase_subjects() {
     const PhaseModel m{fmt::format("henyeygreenstein(g {:g})", g), static_cast<double>(g),
                        [phase](Vec3 wo, Vec3 wi) { return phase.p(wo, wi); },
                        [phase](Vec3 wo, Vec2 u) { return phase.sample(wo, u); }};
-    subjects.push_back({"phase", "henyeygreenstein", m.name,
-                        [m](const BatteryOptions& options) { return check_phase(m, options); }});
+    subjects.push_back(
+        {"phase", "henyeygreenstein", m.name, [m](const BatteryOptions& options) { return check_phase(m, options); }});
   }
   return subjects;
 }

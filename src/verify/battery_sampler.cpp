@@ -165,8 +165,7 @@ std::vector<CheckResult> check_sampler(const std::string& name, const BatteryOpt
   check_uniform(kind, scaled(1 << 15), options.seed, range, uniform);
   std::vector<CheckResult> results{range.result(), uniform.result(),
                                    check_independence(name, kind, scaled(1 << 13), options.seed),
-                                   check_random_access(name, kind, options.seed),
-                                   check_keys(name, kind, options.seed)};
+                                   check_random_access(name, kind, options.seed), check_keys(name, kind, options.seed)};
   if (kind == SamplerKind::kSobol) results.push_back(check_elementary_intervals(name, kind, options.seed));
   judge(results, options.family_level);
   return results;

@@ -50,8 +50,10 @@ std::vector<CheckResult> check_texture(const std::string& name, const ModelUse& 
     const BareScene bare = compile_bare(d);
     // What one kind alone can be is made as that.
     if (!bare.scene) {
-      if (!is_float) made.add(0.5, [&] { return bare.problem; });
-      else if (made.result().statistic > 0.0) made.add(1.0, [&] { return bare.problem; });
+      if (!is_float)
+        made.add(0.5, [&] { return bare.problem; });
+      else if (made.result().statistic > 0.0)
+        made.add(1.0, [&] { return bare.problem; });
       continue;
     }
     const TextureTable& table = bare.scene->textures;

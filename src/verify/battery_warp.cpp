@@ -18,7 +18,7 @@ struct Warp {
   std::string model;    // the function, as core/ names it
   std::string setting;  // what else it depends on
   std::function<Vec3d(Vec2)> map;
-  std::function<double(Vec2)> pdf;  // per area (or solid angle) where u is sent to
+  std::function<double(Vec2)> pdf;                               // per area (or solid angle) where u is sent to
   std::function<bool(Vec2)> smooth = [](Vec2) { return true; };  // no kink and not too steep near u
   float step = 0.004f;                                           // of the differences
 };
@@ -101,10 +101,8 @@ Warp visible_normals(float ax, float ay, Vec3 wo) {
     const Vec3 h = ggx.sample_visible(wo, u);
     return static_cast<double>(ggx.g1(wo) * std::max(0.0f, dot(wo, h)) * ggx.d(h) / wo.z);
   };
-  return {"Ggx::sample_visible",
-          fmt::format("alpha {:g} x {:g}, cos {:.2g}", ax, ay, wo.z),
-          [=](Vec2 u) { return to_double(ggx.sample_visible(wo, u)); },
-          pdf,
+  return {"Ggx::sample_visible", fmt::format("alpha {:g} x {:g}, cos {:.2g}", ax, ay, wo.z),
+          [=](Vec2 u) { return to_double(ggx.sample_visible(wo, u)); }, pdf,
           [](Vec2 u) { return u.y > 0.06f && u.y < 0.94f; }};
 }
 
@@ -172,8 +170,8 @@ std::vector<BatterySubject> warp_subjects() {
     const std::string name = w.setting.empty() ? w.model : w.model + "(" + w.setting + ")";
     subjects.push_back({"warp", w.model, name, [w, name](const BatteryOptions&) { return check_warp(name, w); }});
   }
-  subjects.push_back({"warp", "AliasTable::sample", "AliasTable::sample",
-                      [](const BatteryOptions&) { return check_alias_table(); }});
+  subjects.push_back(
+      {"warp", "AliasTable::sample", "AliasTable::sample", [](const BatteryOptions&) { return check_alias_table(); }});
   return subjects;
 }
 

@@ -18,14 +18,17 @@ Param number_param(const ParamDecl& d, ParamKind kind, std::vector<double> value
   return p;
 }
 
-bool is_named(const ParamDecl& d, std::string_view part) { return d.name.find(part) != std::string::npos; }
+bool is_roughness(std::string_view name) { return name.find("roughness") != std::string_view::npos; }
 
 // Ends and middle of a range; of an open one the default, and values below and above it.
 std::vector<double> numbers_of(const ParamDecl& d) {
-  if (is_named(d, "roughness")) return {0.0, 0.01, 0.25, 1.0};
+  // No lobes too sharp for histograms; those are in the lists of examples.
+  if (is_roughness(d.name)) return {0.2, 0.0, 0.6};
   const double* given = std::get_if<double>(&d.default_value);
   const double middle = given ? *given : std::clamp(1.0, d.min, d.max);
   const bool bounded = std::isfinite(d.min) && std::isfinite(d.max);
+  // At the ends of a symmetric range models often degenerate to a delta.
+  if (bounded && d.max == -d.min) return {0.8 * d.min, middle, 0.8 * d.max};
   if (bounded && d.max - d.min <= 1000.0) {
     const double span = d.max - d.min;
     return {d.min + (d.above_min ? 0.05 * span : 0.0), middle, 0.5 * (d.min + d.max), d.max};
@@ -73,7 +76,7 @@ std::vector<Param> candidates(const ParamDecl& d, const std::string& image) {
       break;
     case ParamType::kString: {
       std::vector<std::string> values = d.choices;
-      if (values.empty() && is_named(d, "filename") && !image.empty()) values = {image};
+      if (values.empty() && d.name == "filename" && !image.empty()) values = {image};
       for (const std::string& v : values) {
         Param p = number_param(d, ParamKind::kString, {});
         p.strings = {v};
@@ -91,30 +94,30 @@ std::vector<Param> candidates(const ParamDecl& d, const std::string& image) {
 
 std::vector<ModelUse> parameter_grid(const ModelDecl& decl, const std::string& image) {
   ModelUse base{decl.name, {}, {}};
-  size_t settings = 0;
+  // Parameters with a default change together, and so do those without, which often stand for one another.
+  std::vector<std::vector<Param>> with_default, without;
   for (const ParamDecl& d : decl.params) {
-    const std::vector<Param> values = candidates(d, image);
-    if (d.required && !values.empty()) base.params.push_back(values[0]);
-    settings = std::max(settings, values.size());
+    std::vector<Param> values = candidates(d, image);
+    if (values.empty()) continue;
+    const bool open = std::holds_alternative<std::monostate>(d.default_value);
+    if (d.required)
+      base.params.push_back(values[0]);
+    else
+      (open ? without : with_default).push_back(std::move(values));
   }
   std::vector<ModelUse> grid{base};
-  for (size_t i = 0; i < settings; ++i) {
-    ModelUse use{decl.name, {}, {}};
-    uint64_t index = 0;
-    for (const ParamDecl& d : decl.params) {
-      ++index;
-      const std::vector<Param> values = candidates(d, image);
-      const bool open = std::holds_alternative<std::monostate>(d.default_value) && !d.required;
-      if (values.empty() || open) continue;
-      use.params.push_back(values[(i + hash_combine(7, index)) % values.size()]);
-    }
-    if (!use.params.empty()) grid.push_back(use);
-  }
-  for (const ParamDecl& d : decl.params) {
-    if (!std::holds_alternative<std::monostate>(d.default_value) || d.required) continue;
-    for (const Param& value : candidates(d, image)) {
-      grid.push_back(base);
-      grid.back().params.push_back(value);
+  for (const auto* group : {&with_default, &without}) {
+    size_t settings = 0;
+    for (const auto& values : *group) settings = std::max(settings, values.size());
+    for (size_t i = 0; i < settings; ++i) {
+      ModelUse use = base;
+      for (size_t k = 0; k < group->size(); ++k) {
+        const std::vector<Param>& values = (*group)[k];
+        // A rough direction and a smooth one make a lobe too sharp for histograms.
+        const size_t usable = group == &without && is_roughness(values[0].name) ? 1 : values.size();
+        use.params.push_back(values[(i + hash_combine(7, k)) % usable]);
+      }
+      grid.push_back(std::move(use));
     }
   }
   return grid;
@@ -125,8 +128,10 @@ std::string setting_name(const ModelUse& use) {
   for (const Param& p : use.params) {
     text += (text.empty() ? "" : ", ") + p.name + " ";
     if (!p.numbers.empty()) text += fmt::format("{:g}", fmt::join(p.numbers, " "));
-    if (p.kind == ParamKind::kBool) text += p.integers[0] ? "true" : "false";
-    else if (!p.integers.empty()) text += fmt::format("{}", fmt::join(p.integers, " "));
+    if (p.kind == ParamKind::kBool)
+      text += p.integers[0] ? "true" : "false";
+    else if (!p.integers.empty())
+      text += fmt::format("{}", fmt::join(p.integers, " "));
     if (!p.strings.empty()) text += p.strings[0].substr(p.strings[0].find_last_of('/') + 1);
   }
   return text.empty() ? use.model : use.model + "(" + text + ")";

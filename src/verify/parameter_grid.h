@@ -10,8 +10,8 @@
 namespace etd {
 
 // The first has no parameters but the required ones. Then come settings in which every parameter that has a default
-// takes each of a few values of its range at least once, all changing together; then one for each value of a parameter
-// without default, alone. Parameters that are files get `image`; required ones of no known meaning are left out.
+// takes each of a few values of its range at least once, all changing together; then the same of those that have none.
+// Parameters that are files get `image`; those of no known meaning are left out.
 std::vector<ModelUse> parameter_grid(const ModelDecl& decl, const std::string& image = {});
 
 // "conductor(roughness 0.25, k 2)".
