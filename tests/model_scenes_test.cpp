@@ -1,7 +1,7 @@
 // Every model and every parameter that changes the picture, against stored means (model_scenes.h has the names and the
 // files): the mean of the whole picture and of each block of 4 x 4 pixels, in R, G and B, by Welch tests in every mode
-// that converges. All tests together raise a false alarm with a probability of at most 1e-4. With ETENDUE_UPDATE_EXPECTED
-// set, the stored means are made anew instead.
+// that converges. All tests together raise a false alarm with a probability of at most 1e-4. With
+// ETENDUE_UPDATE_EXPECTED set, the stored means are made anew instead.
 //
 // Power, which is asserted: with a probability of 9 in 10 the fast test finds an error of 15 % in the mean of a picture
 // and one of 60 % in a block (the median one of those that are tested); the slow test of 3 % and 12 %.
@@ -24,8 +24,8 @@ namespace etd {
 namespace {
 
 constexpr double kFamilyLevel = 1e-4;
-constexpr double kLevel = 1e-9;      // of one test; fixed, so that a new scene does not change the verdict on the others
-constexpr double kRounding = 2e-5;   // relative: of the stored numbers and of float arithmetic along a path
+constexpr double kLevel = 1e-9;     // of one test; fixed, so that a new scene does not change the verdict on the others
+constexpr double kRounding = 2e-5;  // relative: of the stored numbers and of float arithmetic along a path
 constexpr uint32_t kReplicates = 32;
 constexpr uint32_t kStoredSpp = 4096;
 constexpr uint32_t kSlowFactor = 32;  // how many more samples the slow test takes
@@ -63,8 +63,8 @@ std::vector<RegionMeans> render_means(const SceneDescription& scene, const std::
   return region_means(render_description(scene, o));
 }
 
-// `spp` are the samples of `ours`. Its error is at least what the stored one lets expect: few samples may all have missed
-// what makes them differ, and then show none.
+// `spp` are the samples of `ours`. Its error is at least what the stored one lets expect: few samples may all have
+// missed what makes them differ, and then show none.
 TestResult compare(MeanEstimate ours, MeanEstimate stored, uint32_t spp) {
   const double slack = std::abs(stored.mean) * kRounding;
   stored.mean = std::clamp(ours.mean, stored.mean - slack, stored.mean + slack);
@@ -144,7 +144,8 @@ void expect_stored_means(const ModelScene& scene, uint32_t more, double of_pictu
 
 std::string scene_name(const testing::TestParamInfo<ModelScene>& info) {
   std::string name = info.param.file.stem().string();
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
   return name;
 }
 
@@ -211,7 +212,8 @@ struct Unseen {
   const char *model, *parameter, *why;
 };
 const Unseen kUnseen[] = {
-    {Family::kSampler, "", "", "samplers change the noise, not the mean; the closed forms are rendered with all of them"},
+    {Family::kSampler, "", "",
+     "samplers change the noise, not the mean; the closed forms are rendered with all of them"},
     {Family::kSampler, "", "pixelsamples", "the noise"},
     {Family::kSampler, "", "seed", "the noise"},
     {Family::kIntegrator, "path", "mode", "never changes the mean; every scene is rendered in all that converge"},

@@ -1,5 +1,7 @@
 #include "scene/compile_lights.h"
 
+#include <algorithm>
+
 #include "lights/diffuse_area.h"
 #include "scene/registry.h"
 
@@ -32,6 +34,10 @@ struct MeshSurfaces {
       if (!in_rectangle[t]) of_triangle[t] += static_cast<uint32_t>(rectangles.size());
   }
   size_t size() const { return rectangles.size() + triangles.size(); }
+  bool has_area() const {
+    return !rectangles.empty() ||
+           std::any_of(triangles.begin(), triangles.end(), [](const TriangleSurface& t) { return t.area() > 0; });
+  }
 };
 
 template <class Surface>
@@ -78,6 +84,9 @@ AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
 
 void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
   const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
+  if (!surfaces.has_area())
+    diagnostics_.warning(use.loc, "an area light on a mesh without an area gives no light",
+                         "its triangles are missing, or flat as lines");
   const AreaEmission e = emission(use);
   auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
   auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
