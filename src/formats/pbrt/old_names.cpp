@@ -90,15 +90,14 @@ constexpr OldParam kParams[] = {
 struct OldWord {
   std::string_view word, hint;
 };
-constexpr OldWord kDirectives[] = {
-    {"WorldEnd", "the world of pbrt-v4 ends with the file"},
-    {"SurfaceIntegrator", "write Integrator"},
-    {"VolumeIntegrator", "write Integrator \"volpath\", which does both"},
-    {"Renderer", "write Integrator"},
-    {"Volume", "write MakeNamedMedium and MediumInterface"},
-    {"Interior", "write MediumInterface"},
-    {"Exterior", "write MediumInterface"},
-    {"SearchPath", "file names start in the folder of the scene"}};
+constexpr OldWord kDirectives[] = {{"WorldEnd", "the world of pbrt-v4 ends with the file"},
+                                   {"SurfaceIntegrator", "write Integrator"},
+                                   {"VolumeIntegrator", "write Integrator \"volpath\", which does both"},
+                                   {"Renderer", "write Integrator"},
+                                   {"Volume", "write MakeNamedMedium and MediumInterface"},
+                                   {"Interior", "write MediumInterface"},
+                                   {"Exterior", "write MediumInterface"},
+                                   {"SearchPath", "file names start in the folder of the scene"}};
 
 void note_converter(const SourceLoc& loc, Diagnostics& diagnostics) {
   diagnostics.note(loc, "this is of an older pbrt; \"pbrt --upgrade SCENE\" of pbrt-v4 rewrites most of such a scene");

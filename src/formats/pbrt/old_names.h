@@ -1,5 +1,5 @@
-// What pbrt-v3 and before wrote otherwise: models, parameters, directives and types that pbrt-v4 renamed or dropped, and what to
-// write now. The first use of any of them in a scene also prints a line about pbrt-v4's own converter.
+// What pbrt-v3 and before wrote otherwise: models, parameters, directives and types that pbrt-v4 renamed or dropped,
+// and what to write now. The first use of any of them in a scene also prints a line about pbrt-v4's own converter.
 #pragma once
 
 #include <string>
