@@ -64,9 +64,7 @@ std::vector<Case> cases() {
           {"square, turned",
            {text("aperture", "square"), number("bladerotation", 45)},
            [](double x, double y) { return std::abs(x) + std::abs(y) <= std::sqrt(0.5) ? 1.0 : 0.0; }},
-          {"pentagon",
-           {text("aperture", "pentagon")},
-           [](double x, double y) { return in_polygon(x, y, 5, 0.8, 90); }},
+          {"pentagon", {text("aperture", "pentagon")}, [](double x, double y) { return in_polygon(x, y, 5, 0.8, 90); }},
           // The pentagram: at least four of the five half planes that its long diagonals bound.
           {"star",
            {text("aperture", "star")},

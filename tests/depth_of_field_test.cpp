@@ -85,14 +85,16 @@ TEST(StatisticalDepthOfField, CirclesOfConfusion) {
         const double slack = kQuadrature * scale;
         const TestResult test = t_test(stats, std::clamp(stats.mean(), value - slack, value + slack));
         const double se = std::sqrt(stats.variance_of_mean());
-        EXPECT_GT(test.p_value, kLevel) << opening.name << " at depth " << c.depth << ": " << what << ' ' << stats.mean()
-                                        << " +- " << se << ", expected " << value << '\n'
+        EXPECT_GT(test.p_value, kLevel) << opening.name << " at depth " << c.depth << ": " << what << ' '
+                                        << stats.mean() << " +- " << se << ", expected " << value << '\n'
                                         << text;
         EXPECT_LT(8 * se, 0.06 * scale) << opening.name << ": " << what;
       };
       expect("flux", sum_over_pixels(film, [](double, double) { return 1.0; }), flux, flux);
-      expect("mean x", sum_over_pixels(film, [](double x, double) { return x; }), flux * blur * opening.mean.x, flux * 9);
-      expect("mean y", sum_over_pixels(film, [](double, double y) { return y; }), flux * blur * opening.mean.y, flux * 9);
+      expect("mean x", sum_over_pixels(film, [](double x, double) { return x; }), flux * blur * opening.mean.x,
+             flux * 9);
+      expect("mean y", sum_over_pixels(film, [](double, double y) { return y; }), flux * blur * opening.mean.y,
+             flux * 9);
       const double pixels = 36.0 / 12 + 1.0 / 12;  // of the square and of the box filter
       const auto second = [&](double m) { return flux * (blur * blur * m + pixels); };
       expect("x^2", sum_over_pixels(film, [](double x, double) { return x * x; }), second(opening.square.x),

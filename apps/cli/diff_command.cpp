@@ -88,7 +88,9 @@ void add_diff(CLI::App& app, Run& run) {
   add_crop_option(*command, args->crop, "compare only these pixels of the full image: x0 <= x < x1, y0 <= y < y1");
   command->add_option("--layer", args->layer, "compare this layer: direct, indirect, emission, albedo ...")
       ->type_name("NAME");
-  command->add_option("--exposure", args->metrics.exposure, "stops by which PSNR, SSIM, LDR-FLIP and the page brighten (0)")
+  command
+      ->add_option("--exposure", args->metrics.exposure,
+                   "stops by which PSNR, SSIM, LDR-FLIP and the page brighten (0)")
       ->type_name("EV")
       ->check(CLI::Range(-100.0, 100.0));
   command->add_option("--ppd", args->metrics.pixels_per_degree, "pixels per degree of the eye that looks for FLIP (67)")

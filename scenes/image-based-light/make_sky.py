@@ -3,14 +3,14 @@
 
 A latitude-longitude image in linear light: row 0 is straight up (+z), columns go from +x towards +y. The sky is a
 gradient between zenith and horizon that is warm on the sun's side, with thin clouds of noise on a plane above, and a
-low sun behind haze, ten degrees wide, so that its shadows are soft and a small image can hold it.
+low sun behind haze, eighteen degrees wide, so that its shadows are soft and a small image can hold it.
 """
 import math
 
 WIDTH, HEIGHT = 360, 180
-SUN_AZIMUTH, SUN_HEIGHT, SUN_RADIUS = math.radians(215), math.radians(21), math.radians(5)
+SUN_AZIMUTH, SUN_HEIGHT, SUN_RADIUS = math.radians(215), math.radians(21), math.radians(9)
 SUN = (math.cos(SUN_HEIGHT) * math.cos(SUN_AZIMUTH), math.cos(SUN_HEIGHT) * math.sin(SUN_AZIMUTH), math.sin(SUN_HEIGHT))
-SUN_RADIANCE = (250.0, 156.0, 78.0)
+SUN_RADIANCE = (78.0, 48.0, 24.0)
 
 
 def mix(a, b, t):

@@ -20,23 +20,24 @@ bool is_shape(const std::string& name) {
 }  // namespace
 
 std::vector<ParamDecl> Aperture::params() {
-  return {{.name = "blades",
-           .type = ParamType::kInteger,
-           .default_value = 0,
-           .min = 0,
-           .max = kMostBlades,
-           .doc = "Corners of the lens's opening, a regular polygon in the circle of lensradius; 0: it is round. (Of "
-                  "Etendue, not of pbrt.)"},
-          {.name = "bladerotation",
-           .default_value = 0.0,
-           .unit = "degrees",
-           .doc = "Rotation of the opening, counterclockwise as the camera sees it; at 0 the first corner is up. (Of "
-                  "Etendue, not of pbrt.)"},
-          {.name = "aperture",
-           .type = ParamType::kString,
-           .doc = "The opening as an image, whose longer side is 2 lensradius and whose values (the mean of R, G and B) "
-                  "are the density of rays, or one of the shapes gaussian, square, pentagon and star of pbrt's realistic "
-                  "camera. (Of Etendue, not of pbrt.)"}};
+  return {
+      {.name = "blades",
+       .type = ParamType::kInteger,
+       .default_value = 0,
+       .min = 0,
+       .max = kMostBlades,
+       .doc = "Corners of the lens's opening, a regular polygon in the circle of lensradius; 0: it is round. (Of "
+              "Etendue, not of pbrt.)"},
+      {.name = "bladerotation",
+       .default_value = 0.0,
+       .unit = "degrees",
+       .doc = "Rotation of the opening, counterclockwise as the camera sees it; at 0 the first corner is up. (Of "
+              "Etendue, not of pbrt.)"},
+      {.name = "aperture",
+       .type = ParamType::kString,
+       .doc = "The opening as an image, whose longer side is 2 lensradius and whose values (the mean of R, G and B) "
+              "are the density of rays, or one of the shapes gaussian, square, pentagon and star of pbrt's realistic "
+              "camera. (Of Etendue, not of pbrt.)"}};
 }
 
 Aperture Aperture::create(const ParamReader& p, const std::filesystem::path& folder, CameraData& data) {

@@ -13,9 +13,10 @@ const ModelDecl& SphericalCamera::decl() {
         .type = ParamType::kString,
         .default_value = std::string("equalarea"),
         .choices = {"equalarea", "equirectangular"},
-        .doc = "Where directions lie in the image: equalarea is the octahedral map of infinite lights with the camera's "
-               "up (y) in the middle, all pixels seeing equal solid angles; equirectangular has the angle to up along "
-               "its height and that around it, from x towards z, along its width."}}};
+        .doc =
+            "Where directions lie in the image: equalarea is the octahedral map of infinite lights with the camera's "
+            "up (y) in the middle, all pixels seeing equal solid angles; equirectangular has the angle to up along "
+            "its height and that around it, from x towards z, along its width."}}};
   return d;
 }
 

@@ -42,11 +42,16 @@ show(false);
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -66,7 +71,7 @@ std::string base64(std::string_view bytes) {
 
 // Nine points of the colour map "magma" (Smith and van der Walt 2015, CC0), straight lines between them.
 void append_magma(std::vector<float>& rgb, float value) {
-  constexpr float kPoints[9][3] = {{0, 0, 4},     {28, 16, 68},   {79, 18, 123},  {129, 37, 129}, {181, 54, 122},
+  constexpr float kPoints[9][3] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
                                    {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
   const float x = std::clamp(value, 0.0f, 1.0f) * 8;
   const int i = std::min(static_cast<int>(x), 7);
@@ -145,22 +150,26 @@ std::string histogram_svg(const HistogramTest& h) {
                        h.channel == 0 ? "#c44" : (h.channel == 1 ? "#4a4" : "#46c"));
   }
   const double y = kHeight * (1 - expected / most);
-  return svg + fmt::format("<line x1=\"0\" x2=\"{0}\" y1=\"{1:.1f}\" y2=\"{1:.1f}\" stroke=\"#000\"/></svg>", kWidth, y);
+  return svg +
+         fmt::format("<line x1=\"0\" x2=\"{0}\" y1=\"{1:.1f}\" y2=\"{1:.1f}\" stroke=\"#000\"/></svg>", kWidth, y);
 }
 
 void add_histograms(Page& page, const Verdict& v) {
   if (v.histograms.empty()) return;
-  page.add("<h2>p-values of the blocks</h2><p>Equal images fill all bars alike, up to the line. Bars that rise to the "
-           "left are differences.</p>\n");
+  page.add(
+      "<h2>p-values of the blocks</h2><p>Equal images fill all bars alike, up to the line. Bars that rise to the "
+      "left are differences.</p>\n");
   for (const HistogramTest& h : v.histograms)
-    page.add(fmt::format("<figure style=\"width:32%\">{}<figcaption>{}: {} blocks, {} below {} (corrected p = "
-                         "{:.2g})</figcaption></figure>\n",
-                         histogram_svg(h), kChannels[h.channel], h.blocks, h.below, h.threshold, h.corrected));
+    page.add(
+        fmt::format("<figure style=\"width:32%\">{}<figcaption>{}: {} blocks, {} below {} (corrected p = "
+                    "{:.2g})</figcaption></figure>\n",
+                    histogram_svg(h), kChannels[h.channel], h.blocks, h.below, h.threshold, h.corrected));
 }
 
 void add_worst(Page& page, const Difference& d) {
-  page.add("<h2>Worst pixels</h2>\n<table><tr><th>x, y</th><th>A: R</th><th>G</th><th>B</th><th>B: R</th><th>G</th>"
-           "<th>B</th><th>share of the relMSE</th><th>sigmas</th></tr>\n");
+  page.add(
+      "<h2>Worst pixels</h2>\n<table><tr><th>x, y</th><th>A: R</th><th>G</th><th>B</th><th>B: R</th><th>G</th>"
+      "<th>B</th><th>share of the relMSE</th><th>sigmas</th></tr>\n");
   for (const WorstPixel& p : d.worst) {
     page.add(fmt::format("<tr><td>{}, {}</td>", p.x, p.y));
     for (const Rgb* rgb : {&p.a, &p.b})
@@ -187,17 +196,20 @@ std::string write_difference_page(const Difference& d, const fs::path& folder, d
   page.add(fmt::format("<h1>A: {}<br>B: {}</h1>\n<p class=\"verdict {}\">{}</p>\n", escaped(d.name_a),
                        escaped(d.name_b), kClasses[kind], kSentences[kind]));
   page.add("<pre>" + escaped(difference_text(d)) + "</pre>\n");
-  page.add("<h2>Flip</h2>\n<p><button onclick=\"flip()\">flip</button> <button onclick=\"blink()\">blink</button> shown: "
-           "<b id=\"which\">A</b> (a click on the picture flips too)</p>\n");
-  page.add(fmt::format("<div id=\"flip\" onclick=\"flip()\"><img src=\"{}\" alt=\"A\"><img id=\"over\" src=\"{}\" "
-                       "alt=\"B\"></div>\n",
-                       a, b));
+  page.add(
+      "<h2>Flip</h2>\n<p><button onclick=\"flip()\">flip</button> <button onclick=\"blink()\">blink</button> shown: "
+      "<b id=\"which\">A</b> (a click on the picture flips too)</p>\n");
+  page.add(
+      fmt::format("<div id=\"flip\" onclick=\"flip()\"><img src=\"{}\" alt=\"A\"><img id=\"over\" src=\"{}\" "
+                  "alt=\"B\"></div>\n",
+                  a, b));
   page.add("<h2>Side by side</h2>\n");
   page.figure(a, "A");
   page.figure(b, "B");
-  page.figure(page.image("error.png", error.picture),
-              fmt::format("Signed error of the luminance: red where A is brighter, blue where it is darker, full at {:.3g}",
-                          error.scale));
+  page.figure(
+      page.image("error.png", error.picture),
+      fmt::format("Signed error of the luminance: red where A is brighter, blue where it is darker, full at {:.3g}",
+                  error.scale));
   page.figure(page.image("flip.png", magma(d.metrics.hdr_flip)),
               fmt::format("HDR-FLIP, mean {:.4f}: black is 0, white 1", mean(d.metrics.hdr_flip)));
   page.figure(page.image("ldr-flip.png", magma(d.metrics.ldr_flip)),
