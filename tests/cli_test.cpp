@@ -75,25 +75,25 @@ TEST_F(Cli, HelpTeaches) {
 
 TEST_F(Cli, WrongArgumentsExitWithTwo) {
   folder_.write("s.pbrt", kScene);
-  for (const auto& [arguments, message] :
-       std::vector<std::pair<std::string, std::string>>{{"", "subcommand is required"},
-                                                        {"rendr s.pbrt", "did you mean \"render\"?"},
-                                                        {"render s.pbrt --sizes 3x3", "--sizes"},
-                                                        {"render s.pbrt --size 3by3", "not WIDTHxHEIGHT"},
-                                                        {"render s.pbrt --size 65536x65536", "the film needs"},
-                                                        {"render s.pbrt --spp many", "--spp"},
-                                                        {"render s.pbrt --set integrator.mode", "not NAME=VALUE"},
-                                                        {"render s.pbrt --preview a.txt", "cannot write a.txt"},
-                                                        {"render s.pbrt -o a.png --preview ./a.png", "given twice"},
-                                                        {"render s.pbrt --tev host:port", "is not HOST or HOST:PORT"},
-                                                        {"render s.pbrt --time soon", "is no time"},
-                                                        {"render s.pbrt --error 0", "must be positive"},
-                                                        {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
-                                                        {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
-                                                        {"render s.pbrt -o a.gif", "cannot write a.gif"},
-                                                        {"render s.blend", "names no scene language"},
-                                                        {"render absent.pbrt", "absent.pbrt"},
-                                                        {"describe material difuse", "did you mean \"diffuse\"?"}}) {
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"", "subcommand is required"},
+           {"rendr s.pbrt", "did you mean \"render\"?"},
+           {"render s.pbrt --sizes 3x3", "--sizes"},
+           {"render s.pbrt --size 3by3", "not WIDTHxHEIGHT"},
+           {"render s.pbrt --size 65536x65536", "the film needs"},
+           {"render s.pbrt --spp many", "--spp"},
+           {"render s.pbrt --set integrator.mode", "not NAME=VALUE"},
+           {"render s.pbrt --preview a.txt", "cannot write a.txt"},
+           {"render s.pbrt -o a.png --preview ./a.png", "given twice"},
+           {"render s.pbrt --tev host:port", "is not HOST or HOST:PORT"},
+           {"render s.pbrt --time soon", "is no time"},
+           {"render s.pbrt --error 0", "must be positive"},
+           {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
+           {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
+           {"render s.pbrt -o a.gif", "cannot write a.gif"},
+           {"render s.blend", "names no scene language that is read; it is that of Blender files"},
+           {"render absent.pbrt", "absent.pbrt"},
+           {"describe material difuse", "did you mean \"diffuse\"?"}}) {
     const Finished done = run(arguments);
     EXPECT_EQ(done.exit_code, 2) << arguments;
     EXPECT_TRUE(has(done.err, message)) << arguments << "\n" << done.err;

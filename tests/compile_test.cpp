@@ -280,6 +280,16 @@ TEST(Compile, EveryMistakeIsReportedTogether) {
   }
 }
 
+TEST(Compile, ALightWithoutAnAreaIsWorthAWarning) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(compile_world(
+      kLight + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0 ] \"integer indices\" [ 0 1 2 ]",
+      diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].severity, Severity::kWarning);
+  EXPECT_EQ(diagnostics.all()[0].message, "an area light on a mesh without an area gives no light");
+}
+
 TEST(Compile, GeometryBeyondTheAcceleratorsReachIsAnError) {
   for (const std::string& world :
        {"Translate 1e19 0 0 " + kTriangle, std::string("Scale 1e30 1e30 1e30 Shape \"sphere\""),

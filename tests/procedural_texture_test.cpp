@@ -18,17 +18,18 @@ constexpr double kPiD = 3.14159265358979323846;
 // The first and the last entries of Perlin's table; the whole is checked by its sum of products below.
 const std::vector<int>& permutation() {
   static const std::vector<int> p = {
-      151, 160, 137, 91, 90, 15, 131, 13, 201, 95, 96, 53, 194, 233, 7, 225, 140, 36, 103, 30, 69, 142, 8, 99, 37, 240,
-      21, 10, 23, 190, 6, 148, 247, 120, 234, 75, 0, 26, 197, 62, 94, 252, 219, 203, 117, 35, 11, 32, 57, 177, 33, 88,
-      237, 149, 56, 87, 174, 20, 125, 136, 171, 168, 68, 175, 74, 165, 71, 134, 139, 48, 27, 166, 77, 146, 158, 231,
-      83, 111, 229, 122, 60, 211, 133, 230, 220, 105, 92, 41, 55, 46, 245, 40, 244, 102, 143, 54, 65, 25, 63, 161, 1,
-      216, 80, 73, 209, 76, 132, 187, 208, 89, 18, 169, 200, 196, 135, 130, 116, 188, 159, 86, 164, 100, 109, 198, 173,
-      186, 3, 64, 52, 217, 226, 250, 124, 123, 5, 202, 38, 147, 118, 126, 255, 82, 85, 212, 207, 206, 59, 227, 47, 16,
-      58, 17, 182, 189, 28, 42, 223, 183, 170, 213, 119, 248, 152, 2, 44, 154, 163, 70, 221, 153, 101, 155, 167, 43,
-      172, 9, 129, 22, 39, 253, 19, 98, 108, 110, 79, 113, 224, 232, 178, 185, 112, 104, 218, 246, 97, 228, 251, 34,
-      242, 193, 238, 210, 144, 12, 191, 179, 162, 241, 81, 51, 145, 235, 249, 14, 239, 107, 49, 192, 214, 31, 181, 199,
-      106, 157, 184, 84, 204, 176, 115, 121, 50, 45, 127, 4, 150, 254, 138, 236, 205, 93, 222, 114, 67, 29, 24, 72,
-      243, 141, 128, 195, 78, 66, 215, 61, 156, 180};
+      151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103, 30,  69,  142,
+      8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,  197, 62,  94,  252, 219, 203,
+      117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174, 20,  125, 136, 171, 168, 68,  175, 74,  165,
+      71,  134, 139, 48,  27,  166, 77,  146, 158, 231, 83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,
+      55,  46,  245, 40,  244, 102, 143, 54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,
+      18,  169, 200, 196, 135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250,
+      124, 123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,  182, 189,
+      28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101, 155, 167, 43,  172, 9,
+      129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185, 112, 104, 218, 246, 97,  228, 251, 34,
+      242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,  51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,
+      181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
+      67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
   return p;
 }
 
@@ -101,19 +102,27 @@ TEST(Noise, FbmIsTheSumOfItsOctaves) {
     return p;
   };
   const SpectrumSource one = t.add("1", use_of("fbm", {integer("octaves", 1)}), true);
-  expect_everywhere(t, one, [](Point3d p) { return plain_noise(p.x, p.y, p.z); }, 2e-5);
+  expect_everywhere(
+      t, one, [](Point3d p) { return plain_noise(p.x, p.y, p.z); }, 2e-5);
   const SpectrumSource some = t.add("f", use_of("fbm", {integer("octaves", 5), number("roughness", 0.7)}), true);
-  expect_everywhere(t, some, [](Point3d p) { return plain_fbm(p, 5, 0.7); }, 2e-4);
+  expect_everywhere(
+      t, some, [](Point3d p) { return plain_fbm(p, 5, 0.7); }, 2e-4);
   const SpectrumSource plain = t.add("p", use_of("fbm"), true);
-  expect_everywhere(t, plain, [](Point3d p) { return plain_fbm(p, 8, 0.5); }, 3e-4);
+  expect_everywhere(
+      t, plain, [](Point3d p) { return plain_fbm(p, 8, 0.5); }, 3e-4);
   const SpectrumSource none = t.add("0", use_of("fbm", {integer("octaves", 0)}), true);
-  expect_everywhere(t, none, [](Point3d) { return 0.0; }, 1e-9);
+  expect_everywhere(
+      t, none, [](Point3d) { return 0.0; }, 1e-9);
   const SpectrumSource wrinkled = t.add("w", use_of("wrinkled", {integer("octaves", 4)}), true);
-  expect_everywhere(t, wrinkled, [](Point3d p) { return plain_fbm(p, 4, 0.5, true) + 0.2 / 16; }, 2e-4);
+  expect_everywhere(
+      t, wrinkled, [](Point3d p) { return plain_fbm(p, 4, 0.5, true) + 0.2 / 16; }, 2e-4);
   const SpectrumSource windy = t.add("y", use_of("windy"), true);
-  expect_everywhere(t, windy, [](Point3d p) {
-    return std::abs(plain_fbm({0.1 * p.x, 0.1 * p.y, 0.1 * p.z}, 3, 0.5)) * plain_fbm(p, 6, 0.5);
-  }, 3e-4);
+  expect_everywhere(
+      t, windy,
+      [](Point3d p) {
+        return std::abs(plain_fbm({0.1 * p.x, 0.1 * p.y, 0.1 * p.z}, 3, 0.5)) * plain_fbm(p, 6, 0.5);
+      },
+      3e-4);
   ASSERT_FALSE(t.diagnostics.has_errors()) << t.diagnostics.format_all();
 }
 
@@ -195,7 +204,7 @@ TEST(Dots, AreWhereNoisePutsThem) {
 TEST(Bilerp, InsideAndBeyondItsCorners) {
   Textures t;
   const SpectrumSource b = t.add("b", use_of("bilerp", {number("v00", 1), number("v01", 2), number("v10", 4),
-                                                       rgb("v11", 8, 0, 3), number("uscale", 2)}));
+                                                        rgb("v11", 8, 0, 3), number("uscale", 2)}));
   EXPECT_EQ(t.at(b, 0, 0)[0], 1.0f);
   EXPECT_EQ(t.at(b, 0, 1)[0], 2.0f);
   EXPECT_EQ(t.at(b, 0.5f, 0)[0], 4.0f);
@@ -209,17 +218,17 @@ TEST(Bilerp, InsideAndBeyondItsCorners) {
 TEST(Mixes, ByAmountAndByDirection) {
   Textures t;
   t.add("a", use_of("bilerp"), true);
-  const SpectrumSource mix = t.add("m", use_of("mix", {rgb("tex1", 1, 0, 0), rgb("tex2", 0, 0, 1),
-                                                       texture("amount", "a")}));
+  const SpectrumSource mix =
+      t.add("m", use_of("mix", {rgb("tex1", 1, 0, 0), rgb("tex2", 0, 0, 1), texture("amount", "a")}));
   EXPECT_NEAR(t.at(mix, 0, 0.25f)[0], 0.75, 1e-6);
   EXPECT_NEAR(t.at(mix, 0, 0.25f)[2], 0.25, 1e-6);
   EXPECT_EQ(t.at(mix, 0, 1)[0], 0.0f);
   EXPECT_EQ(t.at(t.add("h", use_of("mix")), 0, 0)[0], 0.5f);
   // The direction turns with the transform: here dir is the world's x.
-  const SpectrumSource d =
-      t.add("d", use_of("directionmix", {rgb("tex1", 1, 0, 0), rgb("tex2", 0, 0, 1),
-                                         numbers("dir", ParamKind::kVector3, {0, 7, 0})}),
-            false, Transform::rotate(-90, {0, 0, 1}));
+  const SpectrumSource d = t.add("d",
+                                 use_of("directionmix", {rgb("tex1", 1, 0, 0), rgb("tex2", 0, 0, 1),
+                                                         numbers("dir", ParamKind::kVector3, {0, 7, 0})}),
+                                 false, Transform::rotate(-90, {0, 0, 1}));
   ASSERT_FALSE(t.diagnostics.has_errors()) << t.diagnostics.format_all();
   for (const float sign : {1.0f, -1.0f}) {
     const Spectrum v = t.table.eval(d, {{}, {}, {0.6f * sign, 0.8f, 0}});
@@ -231,8 +240,8 @@ TEST(Mixes, ByAmountAndByDirection) {
 // The space of a texture: rotated, scaled, moved, under a recentred world.
 TEST(Mapping, CoordinatesInTheSpaceOfTheTexture) {
   Textures t;
-  const Transform space = Transform::translate({5, 6, 7}) * Transform::rotate(40, {1, 2, 3}) *
-                          Transform::scale({2, 0.5, 1.5});
+  const Transform space =
+      Transform::translate({5, 6, 7}) * Transform::rotate(40, {1, 2, 3}) * Transform::scale({2, 0.5, 1.5});
   // A bilerp of the corners 0, 0, 1, 1 is s; of 0, 1, 0, 1 it is t.
   const auto coordinate = [&](const char* mapping, bool s, std::vector<Param> more = {}) {
     more.push_back(text("mapping", mapping));
@@ -291,8 +300,7 @@ TEST(Checkerboard, CubesInTextureSpace) {
   dimension.name = "dimension";
   dimension.kind = ParamKind::kInteger;
   dimension.integers = {3};
-  const SpectrumSource cubes =
-      t.add("c", use_of("checkerboard", {dimension}), false, Transform::scale({0.5, 1, 2}));
+  const SpectrumSource cubes = t.add("c", use_of("checkerboard", {dimension}), false, Transform::scale({0.5, 1, 2}));
   ASSERT_EQ(t.diagnostics.all().size(), 0u) << t.diagnostics.format_all();
   for (const Point3& p : points(500, 9)) {
     const auto cell = [](double x) { return static_cast<int>(std::floor(x)); };

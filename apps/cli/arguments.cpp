@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "formats/foreign.h"
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
 #include "io/gzip.h"
@@ -113,7 +114,10 @@ SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {
   const std::string ending = uncompressed_ending(file);
   if (ending == ".pbrt") return read_pbrt(file, diagnostics);
   if (is_mesh_ending(ending)) return read_mesh_scene(file, diagnostics);
-  diagnostics.error({}, fmt::format("{}: the ending \"{}\" names no scene language", path, ending),
+  const std::string_view foreign = foreign_ending(ending);
+  diagnostics.error({},
+                    fmt::format("{}: the ending \"{}\" names no scene language{}", path, ending,
+                                foreign.empty() ? "" : fmt::format(" that is read; it is that of {}", foreign)),
                     "valid: .pbrt (pbrt-v4), and .obj, .off, .ply for a single mesh");
   return {};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lights/diffuse_area.h"
 #include "scene/check_transform.h"
 #include "scene/registry.h"
@@ -35,6 +37,10 @@ struct MeshSurfaces {
       if (!in_rectangle[t]) of_triangle[t] += static_cast<uint32_t>(rectangles.size());
   }
   size_t size() const { return rectangles.size() + triangles.size(); }
+  bool has_area() const {
+    return !rectangles.empty() ||
+           std::any_of(triangles.begin(), triangles.end(), [](const TriangleSurface& t) { return t.area() > 0; });
+  }
 };
 
 template <class Surface>
@@ -82,6 +88,9 @@ AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
 
 void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invisible) {
   const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
+  if (!surfaces.has_area())
+    diagnostics_.warning(use.loc, "an area light on a mesh without an area gives no light",
+                         "its triangles are missing, or flat as lines");
   const AreaEmission e = emission(use, invisible);
   auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
   auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));

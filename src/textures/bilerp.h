@@ -14,14 +14,13 @@ struct BilerpTexture {
     const auto corner = [](const char* name, double value, const char* doc) {
       return ParamDecl{.name = name, .type = ParamType::kSpectrum, .default_value = value, .doc = doc};
     };
-    static const ModelDecl d = with_mapping({Family::kTexture,
-                                             "bilerp",
-                                             "Four values at the corners of the unit square of s and t, bilinear "
-                                             "between them and, without end, beyond; of a float texture, floats.",
-                                             {corner("v00", 0.0, "At s = 0, t = 0."),
-                                              corner("v01", 1.0, "At s = 0, t = 1."),
-                                              corner("v10", 0.0, "At s = 1, t = 0."),
-                                              corner("v11", 1.0, "At s = 1, t = 1.")}});
+    static const ModelDecl d =
+        with_mapping({Family::kTexture,
+                      "bilerp",
+                      "Four values at the corners of the unit square of s and t, bilinear "
+                      "between them and, without end, beyond; of a float texture, floats.",
+                      {corner("v00", 0.0, "At s = 0, t = 0."), corner("v01", 1.0, "At s = 0, t = 1."),
+                       corner("v10", 0.0, "At s = 1, t = 0."), corner("v11", 1.0, "At s = 1, t = 1.")}});
     return d;
   }
   static BilerpTexture create(const ParamReader& p, TextureBuilder& b) {

@@ -14,8 +14,8 @@ struct FbmTexture {
   NoiseSum sum;
 
   static const ModelDecl& decl() {
-    static const ModelDecl d{
-        Family::kTexture, "fbm", "Octaves of noise in texture space: positive and negative values.", noise_params()};
+    static const ModelDecl d{Family::kTexture, "fbm",
+                             "Octaves of noise in texture space: positive and negative values.", noise_params()};
     return d;
   }
   static FbmTexture create(const ParamReader& p, TextureBuilder& b) { return {Mapping3::create(p, b), noise_sum(p)}; }

@@ -12,7 +12,8 @@ ModelDecl with_mapping(ModelDecl decl) {
        .type = ParamType::kString,
        .default_value = std::string("uv"),
        .choices = {"uv", "spherical", "cylindrical", "planar"},
-       .doc = "What the two coordinates s and t are: the surface's uv, or angles, height or distances in texture space."},
+       .doc =
+           "What the two coordinates s and t are: the surface's uv, or angles, height or distances in texture space."},
       {.name = "uscale", .default_value = 1.0, .doc = "Mapping uv: repetitions along u."},
       {.name = "vscale", .default_value = 1.0, .doc = "Mapping uv: repetitions along v."},
       {.name = "udelta", .default_value = 0.0, .doc = "Mappings uv and planar: added to s."},
@@ -57,8 +58,7 @@ Mapping2 Mapping2::create(const ParamReader& p, TextureBuilder& b) {
     return m;
   }
   m.kind = name == "spherical" ? Kind::kSpherical : Kind::kCylindrical;
-  warn_of_unread_mapping(p, {"uscale", "vscale", "udelta", "vdelta", "v1", "v2"},
-                         fmt::format("the mapping {}", name));
+  warn_of_unread_mapping(p, {"uscale", "vscale", "udelta", "vdelta", "v1", "v2"}, fmt::format("the mapping {}", name));
   return m;
 }
 

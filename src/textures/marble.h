@@ -16,8 +16,8 @@ struct MarbleTexture {
 
   static const ModelDecl& decl() {
     static const ModelDecl d = [] {
-      ModelDecl m{Family::kTexture, "marble", "Layers along y in texture space, bent by noise, in the colours of marble.",
-                  noise_params()};
+      ModelDecl m{Family::kTexture, "marble",
+                  "Layers along y in texture space, bent by noise, in the colours of marble.", noise_params()};
       m.params.push_back({.name = "scale", .default_value = 1.0, .doc = "Factor on the coordinates."});
       m.params.push_back({.name = "variation", .default_value = 0.2, .doc = "How much the noise bends the layers."});
       return m;

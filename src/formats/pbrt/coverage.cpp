@@ -3,50 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
+#include "formats/pbrt/old_names.h"
 #include "formats/pbrt/tokenizer.h"
 #include "render/registry.h"
 
 namespace etd::pbrt {
 
 namespace {
-
-// Names that pbrt-v3 had, and what to write now.
-struct OldName {
-  Family family;
-  std::string_view old_name, hint;
-};
-constexpr std::array<OldName, 29> kOldNames = {
-    {{Family::kMaterial, "matte", "write \"diffuse\", and \"reflectance\" for \"Kd\""},
-     {Family::kMaterial, "plastic", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
-     {Family::kMaterial, "substrate", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
-     {Family::kMaterial, "uber", "write \"coateddiffuse\", and \"reflectance\" for \"Kd\""},
-     {Family::kMaterial, "metal", "write \"conductor\""},
-     {Family::kMaterial, "mirror", "write \"conductor\" with \"rgb reflectance\" for \"Kr\""},
-     {Family::kMaterial, "glass", "write \"dielectric\""},
-     {Family::kMaterial, "translucent", "write \"diffusetransmission\""},
-     {Family::kMaterial, "kdsubsurface", "write \"subsurface\""},
-     {Family::kMaterial, "fourier", "pbrt-v4 has \"measured\" instead"},
-     {Family::kMaterial, "disney", "pbrt-v4 has \"coateddiffuse\" and \"coatedconductor\" instead"},
-     {Family::kShape, "cone", "pbrt-v4 has none; write a mesh"},
-     {Family::kShape, "paraboloid", "pbrt-v4 has none; write a mesh"},
-     {Family::kShape, "hyperboloid", "pbrt-v4 has none; write a mesh"},
-     {Family::kShape, "heightfield", "pbrt-v4 has none; write a mesh"},
-     {Family::kShape, "heightfield2", "pbrt-v4 has none; write a mesh"},
-     {Family::kShape, "nurbs", "pbrt-v4 has none; write a mesh"},
-     {Family::kFilm, "image", "write \"rgb\""},
-     {Family::kCamera, "environment", "write \"spherical\""},
-     {Family::kLight, "exinfinite", "write \"infinite\""},
-     {Family::kAreaLight, "area", "write \"diffuse\""},
-     {Family::kTexture, "uv", "pbrt-v4 has none"},
-     {Family::kSampler, "lowdiscrepancy", "write \"sobol\""},
-     {Family::kSampler, "02sequence", "write \"sobol\""},
-     {Family::kSampler, "maxmindist", "write \"sobol\""},
-     {Family::kSampler, "random", "write \"independent\""},
-     {Family::kIntegrator, "directlighting", "write \"path\" with \"integer maxdepth\" 1"},
-     {Family::kIntegrator, "whitted", "write \"path\""},
-     {Family::kIntegrator, "ao", "write \"ambientocclusion\""}}};
 
 const UnsupportedModel* find_unsupported(Family family, std::string_view name) {
   for (const UnsupportedModel& m : unsupported_models())
@@ -88,7 +52,7 @@ std::string_view neutral_model(Family family) {
 
 std::optional<ModelUse> report_unknown(Family family, const ModelUse& use, Diagnostics& diagnostics) {
   const std::vector<std::string_view> names = known_names(family);
-  std::string hint = old_name_hint(family, use.model);
+  std::string hint = old_model_hint(family, use, diagnostics);
   if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
     hint = fmt::format("did you mean \"{}\"? ", near);
   diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
@@ -168,13 +132,8 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
   }
   note_filtering(family, use, diagnostics);
   drop_unsupported_params(family, use, diagnostics);
+  drop_old_params(family, use, diagnostics);
   return use;
-}
-
-std::string old_name_hint(Family family, std::string_view name) {
-  for (const OldName& old : kOldNames)
-    if (old.family == family && old.old_name == name) return fmt::format("\"{}\" is of pbrt-v3: {}\n", name, old.hint);
-  return {};
 }
 
 bool may_take(Family family, std::string_view model, std::string_view param) {

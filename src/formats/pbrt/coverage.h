@@ -55,9 +55,6 @@ std::span<const UnsupportedParam> unsupported_params();
 // must be left out.
 std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics& diagnostics);
 
-// For a name of pbrt-v3 that pbrt-v4 dropped: a line that says what to write now; otherwise empty.
-std::string old_name_hint(Family family, std::string_view name);
-
 // Whether a default parameter set by `Attribute` applies to the model: it takes it here or in the language.
 bool may_take(Family family, std::string_view model, std::string_view param);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "formats/pbrt/coverage.h"
+#include "formats/pbrt/old_names.h"
 #include "formats/pbrt/parser.h"
 #include "render/registry.h"
 
@@ -70,7 +71,7 @@ void replace_unknown(Parser& p, ModelUse& use, Family family, std::string_view o
   std::vector<std::string_view> names;
   for (const ModelDecl* model : all_models(family)) names.push_back(model->name);
   names.insert(names.end(), mapped.begin(), mapped.end());
-  std::string hint = old_name_hint(family, use.model);
+  std::string hint = old_model_hint(family, use, p.diagnostics);
   if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
     hint = fmt::format("did you mean \"{}\"? ", near);
   p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
@@ -151,6 +152,7 @@ void integrator(Parser& p, const Token& d) {
   if (!own && !mapped) replace_unknown(p, *use, Family::kIntegrator, "path", mapped_integrators());
   if (own ? use->model == "path" : mapped) read_path_params(p, *use);
   if (!own && mapped) map_to_ours(p, *use, "path", {"maxdepth", "lightsampler"}, false, "integrator");
+  drop_old_params(Family::kIntegrator, *use, p.diagnostics);
   replace(p, p.scene.integrator, std::move(*use), d);
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "formats/pbrt/old_names.h"
+
 namespace etd::pbrt {
 
 namespace {
@@ -69,9 +71,8 @@ bool is_declaration(const Token& token) {
   return !d.name.empty() && !d.extra && find_type(d.type);
 }
 
-std::string type_hint(std::string_view type, std::string_view name) {
-  if (type == "color") return fmt::format("\"color\" is of pbrt-v3; pbrt-v4 writes \"rgb {}\"", name);
-  if (type == "xyz") return fmt::format("\"xyz\" is of pbrt-v3; pbrt-v4 writes \"rgb {}\" in a ColorSpace", name);
+std::string type_hint(std::string_view type, std::string_view name, const SourceLoc& loc, Diagnostics& diagnostics) {
+  if (std::string old = old_type_hint(type, name, loc, diagnostics); !old.empty()) return old;
   std::vector<std::string_view> names;
   std::string list;
   for (const TypeName& t : kTypes) {
@@ -97,7 +98,8 @@ class ParameterReader {
       diagnostics_.error(head.loc, fmt::format("\"{}\" is not a type and a name", head.text),
                          "a parameter is written \"float radius\" 2 or \"float radius\" [ 2 ]");
     else if (!type)
-      diagnostics_.error(head.loc, fmt::format("unknown parameter type \"{}\"", d.type), type_hint(d.type, d.name));
+      diagnostics_.error(head.loc, fmt::format("unknown parameter type \"{}\"", d.type),
+                         type_hint(d.type, d.name, head.loc, diagnostics_));
     else
       usable = true;
     param_ = {};
@@ -149,8 +151,10 @@ class ParameterReader {
   void wrong(const Token& token, std::string_view expected) {
     const std::string_view quote = token.kind == Token::Kind::kString ? "\"" : "";
     if (!param_.malformed)
-      diagnostics_.error(token.loc, fmt::format("\"{} {}\" takes {}, not {}{}{}", kind_name(param_.kind), param_.name,
-                                                expected, quote, token.text, quote));
+      diagnostics_.error(token.loc,
+                         fmt::format("\"{} {}\" takes {}, not {}{}{}", kind_name(param_.kind), param_.name, expected,
+                                     quote, token.text, quote),
+                         expected == "numbers" ? number_hint(token.text) : "");
     param_.malformed = true;
   }
 

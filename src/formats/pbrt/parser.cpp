@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/pbrt/coverage.h"
+#include "formats/pbrt/old_names.h"
 #include "formats/pbrt/parameter_list.h"
 
 namespace etd::pbrt {
@@ -14,13 +15,26 @@ namespace {
 
 bool is_directive(std::string_view word) { return find_directive(word) != nullptr; }
 
-std::string unknown_directive_hint(std::string_view word) {
-  if (word == "WorldEnd") return "WorldEnd is of pbrt-v3; the world of pbrt-v4 ends with the file";
+bool has_other_quotes(std::string_view word) {
+  for (const std::string_view quote : {"'", "`", "\u2018", "\u2019", "\u201c", "\u201d", "\u201e", "\u00ab"})
+    if (word.substr(0, quote.size()) == quote) return true;
+  return false;
+}
+
+std::string_view nearest_directive(std::string_view word) {
   std::vector<std::string_view> names;
   for (const auto& list : {transform_directives(), option_directives(), world_directives()})
     for (const Directive& d : list) names.push_back(d.name);
-  const std::string_view near = nearest_name(word, names);
-  return near.empty() ? "" : fmt::format("did you mean {}?", near);
+  return nearest_name(word, names);
+}
+
+void report_unknown_directive(const Token& token, Diagnostics& diagnostics) {
+  std::string hint = old_directive_hint(token.text, token.loc, diagnostics);
+  if (const std::string_view near = nearest_directive(token.text); hint.empty() && !near.empty())
+    hint = fmt::format("did you mean {}?", near);
+  if (hint.empty() && token.text[0] >= 'a' && token.text[0] <= 'z')
+    hint = "directives begin with a capital letter, parameters are written \"type name\" value";
+  diagnostics.error(token.loc, fmt::format("unknown directive {}", token.text), hint);
 }
 
 std::string shown(const Token& token) {
@@ -42,10 +56,10 @@ void Parser::read_directives() {
     any_directive = true;
     if (!directive) {
       if (token->kind == Token::Kind::kWord && !parse_number(token->text))
-        diagnostics.error(token->loc, fmt::format("unknown directive {}", token->text),
-                          unknown_directive_hint(token->text));
+        report_unknown_directive(*token, diagnostics);
       else
-        diagnostics.error(token->loc, fmt::format("expected a directive, not {}", shown(*token)));
+        diagnostics.error(token->loc, fmt::format("expected a directive, not {}", shown(*token)),
+                          token->kind == Token::Kind::kWord ? "what stands before it takes no more numbers" : "");
       resynchronise();
       continue;
     }
@@ -67,7 +81,9 @@ void Parser::read_directives() {
 void Parser::resynchronise() {
   tokens.set_quiet(true);
   while (const std::optional<Token> token = tokens.peek()) {
-    if (token->kind == Token::Kind::kWord && is_directive(token->text)) break;
+    if (token->kind == Token::Kind::kWord &&
+        (is_directive(token->text) || is_old_directive(token->text) || !nearest_directive(token->text).empty()))
+      break;
     tokens.next();
   }
   tokens.set_quiet(false);
@@ -79,7 +95,8 @@ std::optional<Token> Parser::string_argument(const Token& directive, std::string
   if (!token || is_directive(token->text))
     diagnostics.error(directive.loc, fmt::format("{} takes {} in quotes", directive.text, what));
   else
-    diagnostics.error(token->loc, fmt::format("{} takes {} in quotes, not {}", directive.text, what, shown(*token)));
+    diagnostics.error(token->loc, fmt::format("{} takes {} in quotes, not {}", directive.text, what, shown(*token)),
+                      has_other_quotes(token->text) ? "quotes are written \", straight and double" : "");
   resynchronise();
   return {};
 }
@@ -111,8 +128,9 @@ std::optional<std::vector<double>> Parser::number_arguments(const Token& directi
   if (numbers.size() == count)
     diagnostics.error(directive.loc,
                       fmt::format("the list of {} is not closed after {} numbers", directive.text, count));
-  else if (token && !is_directive(token->text))
-    diagnostics.error(loc, fmt::format("{} takes {} numbers; {} is none", directive.text, count, shown(*token)));
+  else if (token && token->kind != Token::Kind::kClose && !is_directive(token->text))
+    diagnostics.error(loc, fmt::format("{} takes {} numbers; {} is none", directive.text, count, shown(*token)),
+                      number_hint(token->text));
   else
     diagnostics.error(loc, fmt::format("{} takes {} numbers, not {}", directive.text, count, numbers.size()));
   resynchronise();

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
+#include "formats/foreign.h"
 #include "io/gzip.h"
 
 namespace etd::pbrt {
@@ -28,6 +30,11 @@ Bytes read_bytes(const fs::path& path) {
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in) return {{}, "cannot be read"};
   return {std::move(text), {}};
+}
+
+// Old Macintosh files end their lines with a carriage return alone; others are read as they are.
+void with_unix_line_ends(std::string& text) {
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
 }
 
 bool is_binary(std::string_view text) { return text.substr(0, 4096).find('\0') != std::string_view::npos; }
@@ -76,11 +83,17 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
       }
       bytes.text = std::move(inside.bytes);
     }
+    if (const ForeignFormat foreign = find_foreign_format(bytes.text); !foreign.what.empty()) {
+      diagnostics_.error(loc, fmt::format("the file \"{}\" is {}, not a pbrt scene", path.string(), foreign.what),
+                         std::string(foreign.hint));
+      return -1;
+    }
     if (is_binary(bytes.text)) {
       diagnostics_.error(loc, fmt::format("the file \"{}\" is not text", path.string()),
                          "a pbrt scene is plain text; meshes are named in Shape \"plymesh\"");
       return -1;
     }
+    with_unix_line_ends(bytes.text);
     known = read_.emplace(canonical, diagnostics_.sources().add(path.string(), std::move(bytes.text))).first;
   }
   files_.push_back({Tokenizer(known->second, diagnostics_), path, isolated});

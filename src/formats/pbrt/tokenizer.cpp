@@ -102,7 +102,7 @@ Token Tokenizer::string_token() {
     if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
       if (!escaped(text_[at_ + 1]) && !quiet_)
         diagnostics_.error(location(at_, at_ + 2), "unknown escape in a string",
-                           "valid: \\b \\f \\n \\r \\t \\\\ \\' \\\"");
+                           "valid: \\b \\f \\n \\r \\t \\\\ \\' \\\"; folders are separated by /");
       ++at_;
     }
     ++at_;
@@ -132,6 +132,12 @@ std::optional<int32_t> parse_integer(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error != std::errc()) return {};
   return value;
+}
+
+std::string number_hint(std::string_view text) {
+  const bool has_digit = text.find_first_of("0123456789") != std::string_view::npos;
+  if (!has_digit || text.find(',') == std::string_view::npos) return {};
+  return "numbers have a point, not a comma, and only spaces between them";
 }
 
 }  // namespace etd::pbrt

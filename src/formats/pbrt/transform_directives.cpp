@@ -71,8 +71,9 @@ void coord_sys_transform(Parser& p, const Token& d) {
   for (const auto& entry : p.coordinate_systems) names.push_back(entry.first);
   const std::string_view near = nearest_name(name->value(), names);
   p.diagnostics.error(name->loc, fmt::format("coordinate system \"{}\" is not defined", name->text),
-                      near.empty() ? fmt::format("defined here: {}", fmt::join(names, ", "))
-                                   : fmt::format("did you mean \"{}\"?", near));
+                      names.empty()  ? "Camera defines \"camera\", WorldBegin \"world\", CoordinateSystem any other"
+                      : near.empty() ? fmt::format("defined here: {}", fmt::join(names, ", "))
+                                     : fmt::format("did you mean \"{}\"?", near));
 }
 
 void active_transform(Parser& p, const Token& d) {

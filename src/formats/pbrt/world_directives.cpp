@@ -5,6 +5,7 @@
 
 #include "formats/mesh/obj_scene.h"
 #include "formats/pbrt/coverage.h"
+#include "formats/pbrt/old_names.h"
 #include "formats/pbrt/parser.h"
 
 namespace etd::pbrt {
@@ -99,6 +100,13 @@ void area_light_source(Parser& p, const Token& d) {
   p.scene.area_lights.push_back(std::move(*supported));
 }
 
+void reject_colors(const ModelUse& use, Diagnostics& diagnostics) {
+  for (const Param& param : use.params)
+    if (param.kind == ParamKind::kRgb || param.kind == ParamKind::kSpectrum || param.kind == ParamKind::kBlackbody)
+      diagnostics.error(param.loc, fmt::format("\"{} {}\" in a float texture", kind_name(param.kind), param.name),
+                        fmt::format("write \"float {}\", or make the texture a \"spectrum\" one", param.name));
+}
+
 void texture(Parser& p, const Token& d) {
   const auto name = p.string_argument(d, "the name of the new texture");
   if (!name) return;
@@ -109,11 +117,12 @@ void texture(Parser& p, const Token& d) {
   if (kind->text != "float" && kind->text != "spectrum")
     p.diagnostics.error(kind->loc,
                         fmt::format("a texture is of kind \"float\" or \"spectrum\", not \"{}\"", kind->text),
-                        kind->text == "color" ? "\"color\" is of pbrt-v3; pbrt-v4 writes \"spectrum\"" : "");
+                        old_texture_kind_hint(kind->text, kind->loc, p.diagnostics));
   if (p.state.ctm.is_moving())
     p.diagnostics.warning(name->loc, "textures do not move: this one uses the transform of the start");
   const bool is_float = kind->text == "float";
   p.add_defaults(AttributeTarget::kTexture, Family::kTexture, *use);
+  if (is_float) reject_colors(*use, p.diagnostics);
   std::optional<ModelUse> supported = make_supported(Family::kTexture, std::move(*use), p.diagnostics);
   if (!p.names.define_texture(name->value(), is_float, name->loc, p.diagnostics) || !supported) return;
   p.scene.textures.push_back({name->value(), is_float, std::move(*supported), p.state.ctm.start});
