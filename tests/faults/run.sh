@@ -1,5 +1,5 @@
 #!/bin/sh
-# Switches on each planted fault in turn and prints which tests catch it, as rows of a table:
+# Switches on each planted fault in turn and prints the first test that catches it, as rows of a table:
 #   tests/faults/run.sh BUILD [NAME...]     all faults of that build folder, or only these
 # Exit code 1 when a fault is caught by no test.
 set -eu
@@ -9,12 +9,12 @@ shift
 log=$build/faults.log
 missed=0
 
-failing() { # FAULT FILTER: the tests that fail, one a line; after a crash the one that ran
-  ETENDUE_FAULT=$1 "$build/bin/etendue_tests" --gtest_filter="$2" >"$log" 2>&1 </dev/null || true
+first_failure() { # FAULT FILTER: the first test that fails; after a crash the one that ran
+  ETENDUE_FAULT=$1 "$build/bin/etendue_tests" --gtest_filter="$2" --gtest_fail_fast >"$log" 2>&1 </dev/null || true
   awk '/^\[ RUN      \]/ { running = $4 }
        /^\[       OK \]|^\[  SKIPPED \]/ { running = "" }
-       /^\[  FAILED  \] .*\(.* ms\)$/ { sub(/,$/, "", $4); print $4; running = "" }
-       END { if (running) print running }' "$log" | sort -u
+       /^\[  FAILED  \]/ { exit }
+       END { if (running) print running }' "$log"
 }
 
 wanted() { # NAME [CHOSEN...]
@@ -27,18 +27,14 @@ wanted() { # NAME [CHOSEN...]
 
 while IFS='|' read -r number name what filter; do
   wanted "$name" "$@" || continue
-  caught=$(failing "$number" "$filter")
-  count=$(printf '%s' "$caught" | grep -c . || true)
-  first=$(printf '%s\n' "$caught" | head -n 1)
+  caught=$(first_failure "$number" "$filter")
   # A test that fails without the fault as well has caught nothing.
-  if [ "$count" -eq 0 ] || [ -n "$(failing 0 "$first")" ]; then
+  if [ -z "$caught" ] || [ -n "$(first_failure 0 "$caught")" ]; then
     printf '| %s | %s | **not caught** by %s |\n' "$name" "$what" "$filter"
     missed=$((missed + 1))
   else
-    more=
-    [ "$count" -eq 1 ] || more=" and $((count - 1)) more"
     # shellcheck disable=SC2016 # backquotes for Markdown
-    printf '| %s | %s | `%s`%s |\n' "$name" "$what" "$first" "$more"
+    printf '| %s | %s | `%s` |\n' "$name" "$what" "$caught"
   fi
 done <"$build/faults.txt"
 
