@@ -1,0 +1,200 @@
+# The faults that the checks must catch, each a mistake that people make: a name, what is wrong, the tests that are
+# tried (a filter of the test program's), and the edits that plant it.
+
+function(closed_forms out) # NAME...: the filter of these closed-form scenes
+  list(TRANSFORM ARGN PREPEND "All/StatisticalClosedForms.GiveTheAnswer/" OUTPUT_VARIABLE filters)
+  list(TRANSFORM filters APPEND "_*")
+  string(JOIN ":" filters ${filters})
+  set(${out} "${filters}" PARENT_SCOPE)
+endfunction()
+set(bsdfs "Examples/BsdfBattery.*")
+set(lights "Examples/LightBattery.*")
+
+# ---- scattering
+
+fault(cosine-dropped "Lambert's value lacks the cosine" "${bsdfs}")
+edit(bsdfs/lambert.h [[std::abs(wi.z)) : Spectrum();]] [[(FAULT ? 1.0f : std::abs(wi.z))) : Spectrum();]])
+
+closed_forms(tests point_light sky_plane furnace_box)
+fault(pi-dropped "Lambert's value lacks 1 / pi" "${tests}")
+edit(bsdfs/lambert.h [[reflectance * (kInvPi *]] [[reflectance * ((FAULT ? 1.0f : kInvPi) *]])
+
+fault(density-two-percent-off "the density of rough reflection is 2 % too high" "${bsdfs}")
+edit(bsdfs/microfacet.h [[return d(h) * reflection_pdf_factor(wo);]]
+     [[return d(h) * reflection_pdf_factor(wo) * (FAULT ? 1.02f : 1.0f);]])
+
+fault(masking-of-one-side "microfacets shadow the viewer but not the light" "${bsdfs}")
+edit(bsdfs/microfacet.h [[return 0.5f / (stretched(wo) + stretched(wi) * (wo.z / wi.z));]]
+     [[return 0.5f / (stretched(wo) + (FAULT ? wo.z : stretched(wi) * (wo.z / wi.z)));]])
+
+fault(normals-not-stretched "visible normals are sampled as if the surface were isotropic and of width 1" "${bsdfs}")
+edit(bsdfs/microfacet.h [[normalize(Vec3{ax * wo.x, ay * wo.y, wo.z});]]
+     [[normalize(FAULT ? wo : Vec3{ax * wo.x, ay * wo.y, wo.z});]])
+
+fault(fresnel-of-one-polarisation "dielectrics reflect as for perpendicular polarisation" "Fresnel.*:${bsdfs}")
+edit(bsdfs/fresnel.h [[0.5f * (r_parallel * r_parallel +]]
+     [[0.5f * ((FAULT ? r_perpendicular * r_perpendicular : r_parallel * r_parallel) +]])
+
+closed_forms(tests sky_from_glass glass_in_sky furnace_glass)
+fault(refraction-without-eta-squared "smooth glass does not compress radiance" "${tests}:Examples/BsdfBattery.*smooth_dielectric*")
+edit(bsdfs/dielectric.h [[const float scale = mode == TransportMode::kRadiance ?]]
+     [[const float scale = mode == TransportMode::kRadiance && !FAULT ?]])
+
+fault(rough-refraction-without-eta-squared "rough glass does not compress radiance" "${bsdfs}")
+edit(bsdfs/rough_dielectric.h [[return mode == TransportMode::kRadiance ? 1.0f / (eta_p * eta_p) : 1.0f;]]
+     [[return mode == TransportMode::kRadiance && !FAULT ? 1.0f / (eta_p * eta_p) : 1.0f;]])
+
+fault(layer-thickness-without-slant "layers absorb the same at every angle" "Layered.*:${bsdfs}")
+edit(bsdfs/layered.h [[return std::exp(-std::abs(distance / w.z));]]
+     [[return std::exp(-std::abs(FAULT ? distance : distance / w.z));]])
+
+fault(phase-sign "the phase function is sampled backwards" "HenyeyGreenstein*:Layered.*:${bsdfs}")
+edit(phase/henyey_greenstein.h [[const float z = clamp(-cosine, -1.0f, 1.0f)]]
+     [[const float z = clamp(FAULT ? cosine : -cosine, -1.0f, 1.0f)]])
+
+fault(shading-normal-leak "light passes through surfaces whose normals disagree" "SurfaceScatter.*:SurfaceDetail.*")
+edit(materials/surface_scatter.h [[return cos_o * cos_i * (dot(wo, ng_) * dot(wi, ng_)) > 0.0f;]]
+     [[return FAULT || cos_o * cos_i * (dot(wo, ng_) * dot(wi, ng_)) > 0.0f;]])
+
+# ---- sampling
+
+fault(disk-without-root "points crowd in the middle of the disk" "Warp.*:${bsdfs}")
+edit(core/warp.h [[const float a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;]]
+     [[if (FAULT) return {u.x * std::cos(2.0f * kPi * u.y), u.x * std::sin(2.0f * kPi * u.y)};
+  const float a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;]])
+
+fault(triangle-without-root "points crowd in a corner of the triangle" "Warp.*:${lights}")
+edit(core/warp.h [[if (u.x < u.y) {]] [[if (FAULT) return {1.0f - u.x, u.x * u.y};
+  if (u.x < u.y) {]])
+
+fault(cap-as-flat-disk "the solid angle of a sphere is taken for that of a flat disk" "SphericalCap.*:${lights}")
+edit(core/solid_angle.cpp [[return 2.0 * kPiD * sin2_max / (1.0 + std::sqrt(1.0 - sin2_max));]]
+     [[return FAULT ? kPiD * sin2_max : 2.0 * kPiD * sin2_max / (1.0 + std::sqrt(1.0 - sin2_max));]])
+
+fault(rectangle-uniform-in-height "spherical rectangles are sampled uniformly by height" "SphericalRectangle.*:${lights}")
+edit(core/solid_angle.cpp [[const double yv = h2 < 1.0 - 1e-12 ?]]
+     [[const double yv = FAULT ? y0_ + static_cast<double>(u.y) * (y1_ - y0_) : h2 < 1.0 - 1e-12 ?]])
+
+fault(alias-lost "the alias table never uses its aliases" "AliasTable.*")
+edit(core/distribution.cpp [[bins_[small.index].alias = large.index;]]
+     [[bins_[small.index].alias = FAULT ? small.index : large.index;]])
+
+fault(correlated-dimensions "all two-dimensional numbers of a path are the same" "Sampler.*:SobolSampler.*")
+edit(samplers/sampler.cpp [[Vec2 Sampler::get_2d() {
+  const uint64_t h = hash_combine(key_, dimension_++);]] [[Vec2 Sampler::get_2d() {
+  const uint64_t h = hash_combine(key_, FAULT ? 0 : dimension_++);]])
+
+fault(correlated-pixels "all pixels use the same numbers" "Sampler.*:SobolSampler.*")
+edit(samplers/sampler.cpp [[key_ = hash_combine(seed_, replicate, stream);]]
+     [[key_ = hash_combine(seed_, replicate, FAULT ? 0 : stream);]])
+
+fault(replicates-reuse-seed "all replicates use the same numbers" "Sampler.*:SobolSampler.*:Film.*")
+edit(samplers/sampler.cpp [[  index_ = index;]]
+     [[  if (FAULT) key_ = hash_combine(seed_, 0, stream);
+  index_ = index;]])
+
+fault(filter-not-normalised "the gaussian filter's weights are 2 % too low" "Filter.*")
+edit(filters/gaussian.h [[value(d) * 2.0f / (integral * density)]]
+     [[value(d) * (FAULT ? 1.96f : 2.0f) / (integral * density)]])
+
+# ---- lights
+
+fault(area-without-jacobian "density per area is taken for one per solid angle" "${lights}")
+edit(lights/diffuse_area.h [[return pdf_area * distance2 / std::abs(cosine);]]
+     [[return FAULT ? pdf_area : pdf_area * distance2 / std::abs(cosine);]])
+
+fault(area-without-cosine "density per solid angle lacks the light's cosine" "${lights}")
+edit(lights/diffuse_area.h [[pdf_area * distance2 / std::abs(cosine);]]
+     [[pdf_area * distance2 / (FAULT ? 1.0f : std::abs(cosine));]])
+
+closed_forms(tests emission_sides square_light square_light_away)
+fault(emission-on-the-wrong-side "one-sided lights emit backwards" "${tests}")
+edit(lights/area_emission.h [[!(dot(s.ng, w) > 0.0f)]] [[!((FAULT ? -1.0f : 1.0f) * dot(s.ng, w) > 0.0f)]])
+
+fault(environment-without-sine "a lat-long map is sampled as if all its rows were as wide" "${lights}:LatLongLayout.*:EnvironmentMap.*")
+edit(lights/environment_map.cpp [[std::sin(0.5 * step) * std::sin((y + 0.5) * step)]]
+     [[std::sin(0.5 * step) * (FAULT ? 2.0 / kPiD : std::sin((y + 0.5) * step))]])
+
+fault(environment-mirrored "a lat-long map is looked up mirrored" "LatLongLayout.*:EnvironmentMap.*:Sizes/EnvironmentLayouts.*:${lights}")
+edit(lights/environment_map.cpp [[const float phi = std::atan2(w.y, w.x);]]
+     [[const float phi = std::atan2(FAULT ? -w.y : w.y, w.x);]])
+
+closed_forms(tests point_light point_light_power)
+fault(point-light-without-distance "point lights do not fade with distance" "${lights}:${tests}")
+edit(lights/point_lights.h [[emission.intensity(-s.wi) * (1.0f / d2);]]
+     [[emission.intensity(-s.wi) * (FAULT ? 1.0f : 1.0f / d2);]])
+
+closed_forms(tests spot_light spot_light_power)
+fault(spot-power-without-fade "the power of a spot light leaves out that its edge fades" "${lights}:${tests}")
+edit(lights/spot.h [[(1.0f - 0.5f * (cos_inner + cos_outer))]]
+     [[(1.0f - (FAULT ? cos_outer : 0.5f * (cos_inner + cos_outer)))]])
+
+closed_forms(tests sky_and_square)
+fault(light-choice-probability "the choice of a light is weighted as if it were uniform" "PowerLightSampler.*:${tests}")
+edit(light_sampling/power_light_sampler.cpp [[return Choice{light, table_.probability(light)};]]
+     [[return Choice{light, FAULT ? 1.0f / 2 : table_.probability(light)};]])
+
+# ---- film
+
+fault(standard-error-by-n "the standard error divides by n^2 instead of n (n - 1)" "Film.*")
+edit(film/film.cpp [[/ (n * (n - 1));]] [[/ (n * (FAULT ? n : n - 1));]])
+
+# ---- paths
+
+closed_forms(tests sky_alone sky_plane furnace_box square_light)
+fault(mis-light-weight-one "light samples are not weighted against scattering" "${tests}")
+edit(integrators/path.cpp [[const bool both = mode == PathMode::kMis && !s->is_delta;]]
+     [[const bool both = !FAULT && mode == PathMode::kMis && !s->is_delta;]])
+
+fault(mis-scattering-weight-one "emission that scattering finds is not weighted against light samples" "${tests}")
+edit(integrators/path.cpp [[if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;]]
+     [[if (FAULT || only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;]])
+
+closed_forms(tests sky_and_square)
+fault(mis-without-choice-of-light "the weight of emission leaves out the chance that the light is chosen" "${tests}:StatisticalAgreement.*lamps*")
+edit(integrators/path.cpp [[scene_.light_sampler.probability(light) * pdf);]]
+     [[(FAULT ? 1.0f : scene_.light_sampler.probability(light)) * pdf);]])
+
+closed_forms(tests latlong_sky equal_area_sky)
+fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")
+edit(integrators/path.cpp [[return mode == PathMode::kMis ? LightSampling::kCompensated]]
+     [[return mode == PathMode::kMis || FAULT ? LightSampling::kCompensated]])
+
+closed_forms(tests furnace_box furnace_depth furnace_sphere)
+fault(roulette-without-compensation "paths that survive roulette are not made up for those that end" "${tests}")
+edit(integrators/path.cpp [[beta *= 1.0f / survival;]] [[beta *= FAULT ? 1.0f : 1.0f / survival;]])
+
+fault(path-one-longer "paths are one event longer than asked for" "${tests}")
+edit(integrators/path.cpp [[if (depth == settings_.max_depth) break;]] [[if (depth == settings_.max_depth + FAULT) break;]])
+
+closed_forms(tests mirror_60 mirror_85 glass_slab glass_in_sky)
+fault(emission-after-mirrors-lost "emission seen in a mirror counts as if light sampling had found it" "${tests}")
+edit(integrators/path.cpp [[only_scattering = s->is_delta();]] [[only_scattering = !FAULT && s->is_delta();]])
+
+closed_forms(tests alpha_light alpha_sky alpha_veil)
+fault(holes-of-lights-ignored "light samples count the holes of a light" "${tests}")
+edit(integrators/path.cpp [[* scene.light_alpha(choice->light, s->on_light)]]
+     [[* (FAULT ? 1.0f : scene.light_alpha(choice->light, s->on_light))]])
+
+fault(holes-throw-shadows "shadow rays do not pass through holes" "${tests}:Alpha.*")
+edit(scene/scene.h [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_holes || intersect(ray, hit));]])
+
+# ---- geometry
+
+fault(normals-as-vectors "normals of instances are mapped like vectors" "Surface.*:Placement.*:Accel.*")
+edit(accel/surface.cpp [[const Vec3 ng = instance.to_object.transposed(s.ng);]]
+     [[const Vec3 ng = FAULT ? m.vector(s.ng) : instance.to_object.transposed(s.ng);]])
+
+fault(rays-start-on-the-surface "scattered rays start without distance to their surface" "Leak.*:Accel.*:QuadricLeak.*")
+edit(accel/spawn.h [[return {offset_origin(s, w), w, kInfinity, time};]]
+     [[return {FAULT ? s.p : offset_origin(s, w), w, kInfinity, time};]])
+
+closed_forms(tests cap_light cylinder_light ring_light)
+fault(quadric-stretch "sampling a stretched quadric leaves out how its area stretches" "Quadric*:${tests}:${lights}")
+edit(shapes/quadric.h [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
+     [[return 1.0f / (quadric.part.area() * (FAULT ? 1.0f : quadric_area_stretch(quadric, q)));]])
+
+# ---- images
+
+fault(colours-not-decoded "sRGB colours are taken for linear ones" "Image.*:ImageMap.*")
+edit(io/image.cpp [[return srgb_to_linear(encoded);]] [[return FAULT ? encoded : srgb_to_linear(encoded);]])
