@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace etd {
 namespace {
 
@@ -31,6 +33,11 @@ std::vector<FilmTest> compare_films(const Film& a, const Film& b, double planted
     for (int x = all.x0; x < all.x1; x += kBlock)
       add(fmt::format("block {},{}", x, y), {x, y, std::min(x + kBlock, all.x1), std::min(y + kBlock, all.y1)}, {});
   return tests;
+}
+
+bool films_agree(const Film& a, const Film& b, double level) {
+  const std::vector<FilmTest> tests = compare_films(a, b);
+  return std::all_of(tests.begin(), tests.end(), [level](const FilmTest& t) { return t.result.p_value >= level; });
 }
 
 void expect_agreement(const std::string& name, const Film& a, const Film& b, double level) {

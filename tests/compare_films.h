@@ -20,6 +20,9 @@ std::vector<FilmTest> compare_films(const Film& a, const Film& b, double planted
 // How many tests that makes.
 uint64_t film_test_count(int width, int height);
 
+// Whether no test falls below `level`.
+bool films_agree(const Film& a, const Film& b, double level);
+
 // Fails with numbers and images where a test falls below `level`, and where an error of 1 % in the image's R, G or B
 // would not have been seen.
 void expect_agreement(const std::string& name, const Film& a, const Film& b, double level);
