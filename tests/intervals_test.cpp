@@ -183,8 +183,8 @@ TEST(SlowIntervals, TexturedRoom) { expect_honest(kRoom); }
 TEST(SlowIntervals, SobolCoversAtLeastNinetyPercent) {
   for (const Scene& scene : {kSoft, kLens, kRoom})
     for (const uint32_t spp : {64u, 256u}) {
-      const auto pixels = study(100, [&](size_t seed) { return render(scene, overrides("sobol", spp, 8, seed)); });
-      EXPECT_GE(report(fmt::format("{}, sobol {} spp", scene.name, spp), pixels, 100).coverage(), 0.9);
+      const auto pixels = study(50, [&](size_t seed) { return render(scene, overrides("sobol", spp, 8, seed)); });
+      EXPECT_GE(report(fmt::format("{}, sobol {} spp", scene.name, spp), pixels, 50).coverage(), 0.9);
     }
 }
 
@@ -195,7 +195,7 @@ TEST(SlowIntervals, EightReplicatesAgainstTwoUnderSobol) {
       const auto variance = [&](uint32_t replicates) {
         double sum = 0;
         for (const PixelStudy& p :
-             study(60, [&](size_t seed) { return render(scene, overrides("sobol", spp, replicates, seed)); }))
+             study(40, [&](size_t seed) { return render(scene, overrides("sobol", spp, replicates, seed)); }))
           sum += p.variance;
         return sum;
       };
