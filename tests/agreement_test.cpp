@@ -27,11 +27,9 @@ struct Scene {
   std::string name;
   uint32_t spp_naive, spp_next_event, spp_mis;
 };
-const Scene kScenes[] = {{"conductor_box", 1024, 512, 256},
-                         {"textured_room", 1024, 256, 256},
-                         {"sky_instances", 512, 512, 128},
-                         {"glass_caustic", 1024, 512, 512},
-                         {"lamps", 2048, 1024, 1024}};
+const Scene kScenes[] = {{"conductor_box", 1024, 512, 256}, {"textured_room", 1024, 256, 256},
+                         {"sky_instances", 512, 512, 128},  {"glass_caustic", 1024, 512, 512},
+                         {"lamps", 2048, 1024, 1024},       {"window_room", 1024, 256, 256}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
@@ -81,12 +79,14 @@ TEST(StatisticalAgreement, TexturedRoom) { expect_all_agree(kScenes[1]); }
 TEST(StatisticalAgreement, SkyAndInstances) { expect_all_agree(kScenes[2]); }
 TEST(StatisticalAgreement, GlassCaustic) { expect_all_agree(kScenes[3]); }
 TEST(StatisticalAgreement, Lamps) { expect_all_agree(kScenes[4]); }
+TEST(StatisticalAgreement, WindowRoom) { expect_all_agree(kScenes[5]); }
 
 TEST(SlowAgreement, ConductorBox) { expect_all_agree(kScenes[0], 32); }
 TEST(SlowAgreement, TexturedRoom) { expect_all_agree(kScenes[1], 32); }
 TEST(SlowAgreement, SkyAndInstances) { expect_all_agree(kScenes[2], 32); }
 TEST(SlowAgreement, GlassCaustic) { expect_all_agree(kScenes[3], 32); }
 TEST(SlowAgreement, Lamps) { expect_all_agree(kScenes[4], 32); }
+TEST(SlowAgreement, WindowRoom) { expect_all_agree(kScenes[5], 32); }
 
 TEST(StatisticalAgreement, FindsAPlantedErrorOfOnePercent) {
   const Scene& scene = kScenes[2];

@@ -91,7 +91,7 @@ TEST(LightBatteryFaults, DensityPerAreaTakenForSolidAngle) {
 
 TEST(LightBatteryFaults, EmitsOnTheWrongSide) {
   LightModel m = example("diffuse(triangle)");
-  m.emitted = [](const SurfacePoint* s, Vec3 w) { return dot(s->ng, w) < 0.0f ? Spectrum(1.0f) : Spectrum(); };
+  m.emitted = [](const SurfacePoint* s, Vec3 w, Point3) { return dot(s->ng, w) < 0.0f ? Spectrum(1.0f) : Spectrum(); };
   EXPECT_TRUE(failures(m).count("radiance of all directions"));
 }
 

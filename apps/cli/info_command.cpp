@@ -51,11 +51,13 @@ void print_info(const PreparedRender& prepared) {
     row("bounds", fmt::format("{} to {} m", triple(summary.bounds.lo), triple(summary.bounds.hi)));
   fmt::print("memory\n");
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
-  const size_t textures = scene.textures.image_bytes(), film = Film::bytes_for(film_settings(s));
-  for (const auto& [name, bytes] : {std::pair("geometry", geometry), std::pair("accelerator", accelerator),
-                                    std::pair("textures", textures), std::pair("film", film)})
+  const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
+  const size_t film = Film::bytes_for(film_settings(s));
+  for (const auto& [name, bytes] :
+       {std::pair("geometry", geometry), std::pair("accelerator", accelerator), std::pair("textures", textures),
+        std::pair("lights", lights), std::pair("film", film)})
     fmt::print("  {:<12}{}\n", name, bytes_text(bytes));
-  fmt::print("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + film));
+  fmt::print("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + lights + film));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
 #include "bsdfs/diffuse_transmission.h"
+#include "bsdfs/energy.h"
 #include "bsdfs/lambert.h"
 #include "bsdfs/layered.h"
 #include "bsdfs/rough_dielectric.h"
@@ -13,7 +14,8 @@ namespace etd {
 
 namespace {
 using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric, RoughDielectric, ThinDielectric,
-                          DiffuseTransmission, Layered<SmoothDielectric, Lambert>, Layered<RoughDielectric, Lambert>,
+                          DiffuseTransmission, EnergyCompensated<RoughConductor>, EnergyCompensated<RoughDielectric>,
+                          Layered<SmoothDielectric, Lambert>, Layered<RoughDielectric, Lambert>,
                           Layered<SmoothDielectric, SmoothConductor>, Layered<SmoothDielectric, RoughConductor>,
                           Layered<RoughDielectric, SmoothConductor>, Layered<RoughDielectric, RoughConductor>>;
 }  // namespace
@@ -29,6 +31,8 @@ template Bsdf::Bsdf(const SmoothDielectric&);
 template Bsdf::Bsdf(const RoughDielectric&);
 template Bsdf::Bsdf(const ThinDielectric&);
 template Bsdf::Bsdf(const DiffuseTransmission&);
+template Bsdf::Bsdf(const EnergyCompensated<RoughConductor>&);
+template Bsdf::Bsdf(const EnergyCompensated<RoughDielectric>&);
 template Bsdf::Bsdf(const Layered<SmoothDielectric, Lambert>&);
 template Bsdf::Bsdf(const Layered<RoughDielectric, Lambert>&);
 template Bsdf::Bsdf(const Layered<SmoothDielectric, SmoothConductor>&);

@@ -5,6 +5,7 @@
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
 #include "bsdfs/diffuse_transmission.h"
+#include "bsdfs/energy.h"
 #include "bsdfs/lambert.h"
 #include "bsdfs/layered.h"
 #include "bsdfs/rough_dielectric.h"
@@ -98,6 +99,15 @@ std::vector<BsdfExample> make_examples() {
   frosted("1.5, 0.1 x 0.6", 1.5f, 0.1f, 0.6f);
   frosted("1.1, 0.3", 1.1f, 0.3f, 0.3f);
   frosted("2.42, 0.01", 2.42f, 0.01f, 0.01f, 0.01f);
+
+  const auto compensated = [&list](std::string name, const auto& closure, const EnergyTable& table) {
+    const EnergyCompensated<std::decay_t<decltype(closure)>> whole{closure, &table};
+    list.push_back({"energy_compensated(" + name + ")", Bsdf(whole)});
+  };
+  compensated("rough copper, 0.7", RoughConductor{copper.eta, copper.k, {0.7f, 0.7f}}, mirror_energy());
+  compensated("rough copper, 0.1 x 0.6", RoughConductor{copper.eta, copper.k, {0.1f, 0.6f}}, mirror_energy());
+  compensated("rough glass, 1.5, 0.5", RoughDielectric{1.5f, {0.5f, 0.5f}}, dielectric_energy(1.5f));
+  compensated("rough glass, 1/1.5, 0.3", RoughDielectric{1.0f / 1.5f, {0.3f, 0.3f}}, dielectric_energy(1.0f / 1.5f));
 
   list.push_back({"thin_dielectric(1.5)", Bsdf(ThinDielectric{1.5f}), true});
   list.push_back({"thin_dielectric(1/1.5)", Bsdf(ThinDielectric{1.0f / 1.5f}), true});

@@ -58,7 +58,7 @@ std::string PathIntegrator::bias() const {
   const bool delta =
       std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& l) { return l.is_delta(); });
   std::string bias;
-  if (settings_.mode == PathMode::kNaive && delta) bias = "lights without extent, which no ray meets, are left out";
+  if (settings_.mode == PathMode::kNaive && delta) bias = "lights that no ray meets are left out";
   if (settings_.indirect)
     bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
                         settings_.max_depth);
@@ -148,7 +148,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
       for (uint32_t light : scene_.infinite_lights)
-        add(depth, beta * scene_.lights[light].emitted(nullptr, -ray.d) * emission_weight(light, nullptr));
+        add(depth, beta * scene_.lights[light].emitted(nullptr, -ray.d, ray.o) * emission_weight(light, nullptr));
       break;
     }
     const SurfaceHit surface = scene_.surface(hit);

@@ -11,6 +11,7 @@ struct AreaEmission {
   Spectrum radiance{1.0f};       // times that of the image, if there is one
   const Image* image = nullptr;  // (0, 0) is its lower left corner; beyond its edges they go on
   bool two_sided = false;
+  bool invisible = false;  // no ray meets the surface, so that only sampling the light finds it
 
   // Radiance that leaves s along w.
   Spectrum towards(const SurfacePoint& s, Vec3 w) const {

@@ -49,9 +49,11 @@ struct DiffuseAreaLight {
   }
 
   bool is_infinite() const { return false; }
-  bool is_delta() const { return false; }
+  bool is_delta() const { return emission.invisible; }
 
-  Spectrum emitted(const SurfacePoint* s, Vec3 w) const { return emission.towards(*s, w); }
+  Spectrum emitted(const SurfacePoint* s, Vec3 w) const {
+    return emission.invisible ? Spectrum() : emission.towards(*s, w);
+  }
 
   std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling) const {
     LightSample s;
@@ -62,7 +64,8 @@ struct DiffuseAreaLight {
     const float d2 = dot(d, d);
     if (!(d2 > 0.0f)) return {};
     s.wi = d * (1.0f / std::sqrt(d2));
-    s.radiance = emitted(&s.on_light, -s.wi);
+    s.radiance = emission.towards(s.on_light, -s.wi);
+    s.is_delta = emission.invisible;
     s.pdf =
         seen ? static_cast<float>(1.0 / seen->solid_angle()) : to_solid_angle(pdf_area, d2, dot(s.on_light.ng, s.wi));
     if (is_black(s.radiance) || !(s.pdf > 0.0f) || !std::isfinite(s.pdf)) return {};

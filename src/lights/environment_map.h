@@ -28,6 +28,7 @@ class EnvironmentMap {
   // The image's colours, negative ones as 0. Its proportions are those of a layout, and its values are finite.
   explicit EnvironmentMap(const Image& image);
 
+  int height() const { return height_; }
   // The value in the unit direction w.
   Spectrum value(Vec3 w) const;
   // A direction in proportion to the mean of R, G and B, or to what exceeds its average when `sampling` is

@@ -9,6 +9,7 @@
 #include "lights/goniometric.h"
 #include "lights/image_infinite.h"
 #include "lights/point.h"
+#include "lights/portal_infinite.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 
@@ -65,6 +66,16 @@ LightExample sky(std::string name, int width, int height, LightSampling sampling
   return {std::move(name), Light(ImageInfiniteLight{&map, turned(), 0.5f}), nullptr, nullptr, data, sampling};
 }
 
+LightExample portal(std::string name, int width, int height) {
+  auto data = std::make_shared<LightData>();
+  const EnvironmentMap& map = data->environments.emplace_back(uneven_image(width, height));
+  const Portal window{{-0.5f, -0.6f, 0.4f}, Frame::from_z(normalize(Vec3{0.2f, -0.4f, 1})), 1.2f, 0.7f};
+  const PortalMap& seen = data->portals.emplace_back(map, turned(), window);
+  LightExample example{std::move(name), Light(PortalInfiniteLight{&seen, 0.5f}), nullptr, nullptr, data};
+  example.through_portal = true;
+  return example;
+}
+
 LightExample goniometric() {
   auto data = std::make_shared<LightData>();
   const EnvironmentMap& map = data->environments.emplace_back(uneven_image(4, 4));
@@ -88,7 +99,7 @@ LightExample spot(std::string name, float cos_inner, float cos_outer) {
 }
 
 // A rectangle turned in space, of two triangles, with an image or without.
-LightExample rectangle(std::string name, bool textured, bool two_sided) {
+LightExample rectangle(std::string name, bool textured, bool two_sided, bool invisible = false) {
   auto data = std::make_shared<LightData>();
   Mesh m;
   const Frame& f = turned();
@@ -100,7 +111,7 @@ LightExample rectangle(std::string name, bool textured, bool two_sided) {
   m.triangles = {{0, 1, 2}, {0, 2, 3}};
   auto mesh = std::make_shared<const Mesh>(std::move(m));
   const Image* image = textured ? &data->images.emplace_back(uneven_image(6, 3)) : nullptr;
-  const AreaEmission emission{Spectrum::rgb(1.0f, 2.0f, 0.5f), image, two_sided};
+  const AreaEmission emission{Spectrum::rgb(1.0f, 2.0f, 0.5f), image, two_sided, invisible};
   const DiffuseAreaLight<RectangleSurface> light(emission, *RectangleSurface::find(*mesh, 0), 400);
   return {std::move(name), Light(light), mesh, nullptr, data};
 }
@@ -127,6 +138,7 @@ std::vector<LightExample> make_examples() {
       triangle("diffuse(thin triangle, two-sided)", true, false, thin),
       rectangle("diffuse(rectangle)", false, false),
       rectangle("diffuse(rectangle, image, two-sided)", true, true),
+      rectangle("diffuse(rectangle, two-sided, met by no ray)", false, true, true),
       textured_ball(),
       patch("diffuse(trapezoid)", false, {{{-1, -1, 0}, {1, -0.8f, 0}, {-0.3f, 0.6f, 0}, {0.4f, 0.67f, 0}}}),
       patch("diffuse(rectangular patch)", false,
@@ -149,6 +161,8 @@ std::vector<LightExample> make_examples() {
       sky("infinite(equal-area image, compensated)", 8, 8, LightSampling::kCompensated),
       sky("infinite(latitude-longitude image)", 12, 6, LightSampling::kComplete),
       sky("infinite(latitude-longitude image, compensated)", 12, 6, LightSampling::kCompensated),
+      portal("infinite(portal, equal-area image)", 16, 16),
+      portal("infinite(portal, latitude-longitude image)", 32, 16),
       {"distant", Light(DistantLight{turned().x, Spectrum::rgb(3.0f, 2.0f, 1.0f)}), nullptr, nullptr},
       {"point", Light(PointLight<IsotropicIntensity>{{1, 0.5f, -0.7f}, {Spectrum::rgb(3.0f, 2.0f, 1.0f)}}), nullptr,
        nullptr},

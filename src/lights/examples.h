@@ -23,6 +23,7 @@ struct LightExample {
   std::shared_ptr<const LightData> data = {};
   LightSampling sampling = LightSampling::kComplete;
   std::shared_ptr<const PatchMesh> patches = {};
+  bool through_portal = false;  // an infinite light behind a portal that is at most 3 away: its power is what comes in
 };
 
 // The same list at every call, in a fixed order.

@@ -1,4 +1,4 @@
-// The declaration that both infinite lights share: a constant one, and one with an image.
+// The declaration that the infinite lights share: a constant one, one with an image, and one behind a portal.
 #pragma once
 
 #include "lights/light_params.h"
@@ -20,6 +20,13 @@ inline const ModelDecl& infinite_decl() {
                       "it, +z in the middle), or twice as wide as high (latitude-longitude, +z above, from +x towards "
                       "+y).",
                       false),
+       {.name = "portal",
+        .type = ParamType::kPoint3,
+        .array = true,
+        .unit = "m",
+        .doc =
+            "Four corners of a rectangle, in world space whatever the transform: the light comes in through it alone, "
+            "from the side of (p3 - p0) x (p1 - p0), and is black elsewhere."},
        scale_param(),
        illuminance_param("facing the light's +z")}};
   return d;

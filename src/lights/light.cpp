@@ -7,6 +7,7 @@
 #include "lights/goniometric.h"
 #include "lights/image_infinite.h"
 #include "lights/point.h"
+#include "lights/portal_infinite.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 
@@ -15,8 +16,8 @@ namespace etd {
 namespace {
 using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
                         DiffuseAreaLight<PatchSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
-                        ImageInfiniteLight, DistantLight, PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
-                        PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+                        ImageInfiniteLight, PortalInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
+                        PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
 }  // namespace
 
 template <class T>
@@ -29,6 +30,7 @@ template Light::Light(const DiffuseAreaLight<PatchSurface>&);
 template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
 template Light::Light(const ConstantInfiniteLight&);
 template Light::Light(const ImageInfiniteLight&);
+template Light::Light(const PortalInfiniteLight&);
 template Light::Light(const DistantLight&);
 template Light::Light(const PointLight<IsotropicIntensity>&);
 template Light::Light(const PointLight<SpotIntensity>&);
@@ -52,8 +54,13 @@ float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampli
   return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, sampling); });
 }
 
-Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w) const {
-  return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) { return l.emitted(on_light, w); });
+Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from) const {
+  return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) {
+    if constexpr (std::is_same_v<decltype(l), const PortalInfiniteLight&>)
+      return l.emitted(on_light, w, seen_from);
+    else
+      return l.emitted(on_light, w);
+  });
 }
 
 Spectrum Light::power() const {
@@ -79,6 +86,7 @@ std::optional<Light> make_light(const ModelUse& use, const LightContext& context
   const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
   if (use.model == "infinite") {
     const ParamReader p = reader(infinite_decl());
+    if (p.given("portal")) return light(PortalInfiniteLight::create(p, context));
     return p.given("filename") ? light(ImageInfiniteLight::create(p, context))
                                : light(ConstantInfiniteLight::create(p, context));
   }

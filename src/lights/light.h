@@ -1,5 +1,6 @@
 // The family of lights. A light on a surface is one triangle or one quadric; an infinite light surrounds the scene; a
-// delta light sends what it sends from a single point or direction, so that only sampling the light finds it.
+// delta light sends what it sends from a single point or direction, or from a surface that no ray meets, so that only
+// sampling the light finds it.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +17,9 @@ namespace etd {
 
 // Light that arrives at a point, before any occlusion.
 struct LightSample {
-  Vec3 wi;                // unit direction to the light
-  Spectrum radiance;      // that leaves the light towards the point
-  float pdf = 0;          // per solid angle at the point; 1 of a delta light, whose radiance is irradiance across wi
+  Vec3 wi;            // unit direction to the light
+  Spectrum radiance;  // that leaves the light towards the point
+  float pdf = 0;      // per solid angle at the point; 1 of a point or direction, whose radiance is irradiance across wi
   SurfacePoint on_light;  // where it comes from; unused when infinite
   bool is_delta = false;
 };
@@ -41,11 +42,11 @@ class Light {
   // point met there, null for infinite lights.
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light,
                LightSampling sampling = LightSampling::kComplete) const;
-  // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w. 0 for
-  // delta lights.
-  Spectrum emitted(const SurfacePoint* on_light, Vec3 w) const;
-  // Emitted power of finite lights, W (per lane). Infinite lights have none that does not depend on the scene: theirs
-  // is the power through a unit disk, over all directions.
+  // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w from the
+  // point `seen_from`, on which that of a light behind a portal depends. 0 for delta lights.
+  Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}) const;
+  // Emitted power of finite lights, W (per lane), or what comes in through a portal. Other infinite lights have none
+  // that does not depend on the scene: theirs is the power through a unit disk, over all directions.
   Spectrum power() const;
   // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
   uint32_t kind() const { return storage_.tag; }
@@ -62,6 +63,7 @@ struct LightContext {
   Transform to_world;            // to the recentred world
   std::filesystem::path folder;  // where relative file names start
   LightData& data;               // keeps what the light refers to
+  Transform from_world = {};     // of the scene file to the recentred one
 };
 
 std::span<const ModelDecl* const> light_models();

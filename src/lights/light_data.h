@@ -4,16 +4,19 @@
 #include <deque>
 
 #include "lights/environment_map.h"
+#include "lights/portal_map.h"
 
 namespace etd {
 
 struct LightData {
   std::deque<EnvironmentMap> environments;
+  std::deque<PortalMap> portals;
   std::deque<Image> images;
 
   size_t bytes() const {
     size_t sum = 0;
     for (const EnvironmentMap& map : environments) sum += map.bytes();
+    for (const PortalMap& portal : portals) sum += portal.bytes();
     for (const Image& image : images) sum += image.bytes();
     return sum;
   }

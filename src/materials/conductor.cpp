@@ -25,7 +25,7 @@ const ModelDecl& ConductorMaterial::decl() {
                   .clamp = true,
                   .doc = "Reflectance at normal incidence, instead of eta and k."}}};
     m = with_params(m, RoughnessSource::params("", 0.0, "of the surface"));
-    return with_detail(with_params(m, {remap_param()}));
+    return with_detail(with_params(m, {remap_param(), energy_param()}));
   }();
   return d;
 }
@@ -45,6 +45,7 @@ ConductorMaterial ConductorMaterial::create(const ParamReader& p, TextureBuilder
   }
   m.roughness = RoughnessSource::create(p, b, "");
   m.remap = p.boolean("remaproughness");
+  if (p.boolean("energycompensation")) m.energy = &mirror_energy();
   return m;
 }
 

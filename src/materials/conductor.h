@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bsdfs/conductor.h"
+#include "bsdfs/energy.h"
 #include "bsdfs/roughness.h"
 #include "materials/material.h"
 #include "materials/parameters.h"
@@ -23,6 +24,7 @@ struct ConductorMaterial {
   SpectrumSource reflectance;  // at normal incidence
   RoughnessSource roughness;
   bool by_reflectance = false, remap = true;
+  const EnergyTable* energy = nullptr;  // null: single scattering alone
 
   static const ModelDecl& decl();
   static ConductorMaterial create(const ParamReader& p, TextureBuilder& b);
@@ -37,7 +39,8 @@ struct ConductorMaterial {
     }
     const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
     if (!alpha) return Bsdf(SmoothConductor{n, kappa});
-    return Bsdf(RoughConductor{n, kappa, {alpha->x, alpha->y}});
+    const RoughConductor rough{n, kappa, {alpha->x, alpha->y}};
+    return energy ? Bsdf(EnergyCompensated<RoughConductor>{rough, energy}) : Bsdf(rough);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bsdfs/dielectric.h"
+#include "bsdfs/energy.h"
 #include "bsdfs/rough_dielectric.h"
 #include "bsdfs/roughness.h"
 #include "materials/material.h"
@@ -13,6 +14,7 @@ struct DielectricMaterial {
   float eta = 1.5f;
   RoughnessSource roughness;
   bool remap = true;
+  const EnergyTable* energy = nullptr;  // null: single scattering alone
 
   static const ModelDecl& decl();
   static DielectricMaterial create(const ParamReader& p, TextureBuilder& b);
@@ -20,7 +22,8 @@ struct DielectricMaterial {
   Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
     const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
     if (!alpha || eta == 1.0f) return Bsdf(SmoothDielectric{eta});
-    return Bsdf(RoughDielectric{eta, {alpha->x, alpha->y}});
+    const RoughDielectric rough{eta, {alpha->x, alpha->y}};
+    return energy ? Bsdf(EnergyCompensated<RoughDielectric>{rough, energy}) : Bsdf(rough);
   }
 };
 

@@ -7,7 +7,8 @@ namespace etd {
 const ModelDecl& MixMaterial::decl() {
   static const ModelDecl d{Family::kMaterial,
                            "mix",
-                           "One of two materials, chosen at random at each path vertex: a blend of both.",
+                           "One of two materials, chosen at random at each path vertex: a blend of both. Bumps and "
+                           "normal maps are those of the two.",
                            {{.name = "materials",
                              .type = ParamType::kString,
                              .required = true,

@@ -31,6 +31,15 @@ ParamDecl remap_param() {
           .doc = "Take the microfacet alpha as the square root of the roughness, otherwise as the roughness itself."};
 }
 
+ParamDecl energy_param() {
+  return {.name = "energycompensation",
+          .type = ParamType::kBool,
+          .default_value = false,
+          .doc =
+              "Add the light that rough surfaces scatter more than once, which is lost otherwise (Turquin 2019). Not "
+              "in pbrt-v4."};
+}
+
 ParamDecl clear_index_param(const std::string& name, const std::string& doc) {
   return {.name = name,
           .type = ParamType::kSpectrum,

@@ -18,6 +18,9 @@ struct RoughnessSource {
 // The switch between roughness and microfacet alpha.
 ParamDecl remap_param();
 
+// The switch that adds the light of repeated scattering between microfacets (bsdfs/energy.h).
+ParamDecl energy_param();
+
 // Index of refraction of a clear medium: a number, a flat spectrum, or a named glass at 587.6 nm. Indices that differ
 // between colours are unsupported and become their mean.
 ParamDecl clear_index_param(const std::string& name, const std::string& doc);

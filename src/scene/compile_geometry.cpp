@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "scene/compile_lights.h"
 #include "scene/registry.h"
@@ -46,7 +47,13 @@ class GeometryCompiler {
     const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
     scene_.origin = {center.x, center.y, center.z};
     reserve();
-    for (const PlacedShape& s : world_) add(s, scene_.origin, scene_.geometry.groups[0]);
+    // Surfaces of invisible lights are there for sampling, in a group that nothing refers to. They come last, because a
+    // group's quadrics stand in a row.
+    GeometryGroup unseen;
+    for (const PlacedShape& s : world_)
+      if (!is_invisible(s)) add(s, scene_.origin, scene_.geometry.groups[0], true);
+    for (const PlacedShape& s : world_)
+      if (is_invisible(s)) add(s, scene_.origin, unseen, true);
     add_groups();
     add_lights();
   }
@@ -127,11 +134,14 @@ class GeometryCompiler {
     const FloatSource alpha = textures_.number(p, "alpha");
     if (alpha.texture >= 0 || (alpha.value > 0 && alpha.value < 1)) alpha_[&s] = alpha;
     if (alpha.texture >= 0 || alpha.value > 0) return;
-    loaded_.erase(&s);
+    // An area light shines all the same, but nothing meets it.
     if (s.area_light >= 0)
-      diagnostics_.unsupported(s.use.find("alpha")->loc, "an area light that shines but is not there (alpha 0)",
-                               "no surface and no light");
+      invisible_.insert(&s);
+    else
+      loaded_.erase(&s);
   }
+
+  bool is_invisible(const PlacedShape& s) const { return invisible_.count(s.shape) > 0; }
 
   // Corners of the shape in its space: vertices of meshes, or of the box around a quadric.
   void extend(Bounds3& bounds, const PlacedShape& placed) const {
@@ -197,7 +207,7 @@ class GeometryCompiler {
     scene_.geometry.quadrics.reserve(count);
   }
 
-  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group) {
+  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group, bool in_world) {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
     const Transform to_space = Transform::translate(-origin) * placed.to_space;
@@ -231,7 +241,7 @@ class GeometryCompiler {
       scene_.quadric_bindings.push_back(binding);
       ++group.quadric_end;
     }
-    if (&group == &scene_.geometry.groups[0] && placed.shape->area_light >= 0) emitters_.push_back(emitter);
+    if (in_world && placed.shape->area_light >= 0) emitters_.push_back(emitter);
   }
 
   // A Mesh or PatchMesh with everything but its faces.
@@ -265,7 +275,7 @@ class GeometryCompiler {
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const size_t before = scene_.summary.triangles;
-      for (const PlacedShape& s : shapes) add(s, origin, group);
+      for (const PlacedShape& s : shapes) add(s, origin, group, false);
       group_of[object] = {static_cast<uint32_t>(scene_.geometry.groups.size()), Transform::translate(origin),
                           scene_.summary.triangles - before};
       scene_.geometry.groups.push_back(std::move(group));
@@ -284,9 +294,10 @@ class GeometryCompiler {
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const size_t first = scene_.lights.size();
-      if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index);
-      if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index);
-      if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index);
+      const bool invisible = invisible_.count(e.shape) > 0;
+      if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index, invisible);
+      if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index, invisible);
+      if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index, invisible);
       const auto alpha = alpha_.find(e.shape);
       if (alpha == alpha_.end()) continue;
       scene_.light_alphas.resize(first, {1.0f, -1});
@@ -305,6 +316,7 @@ class GeometryCompiler {
   std::map<int, Bounds3> local_bounds_;
   std::map<const ShapeDesc*, ShapeGeometry> loaded_;
   std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
+  std::set<const ShapeDesc*> invisible_;           // lights of alpha 0
   std::vector<Emitter> emitters_;
 };
 

@@ -64,10 +64,11 @@ int points_for(const AreaEmission& emission, size_t surfaces) {
 
 }  // namespace
 
-AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
+AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
   const ParamReader p(diffuse_area_decl(), use, diagnostics_);
   AreaEmission e;
   e.two_sided = p.boolean("twosided");
+  e.invisible = invisible;
   if (!p.given("filename")) {
     e.radiance = emission_value(p, "L");
     return e;
@@ -82,12 +83,12 @@ AreaEmission AreaLightCompiler::emission(const ModelUse& use) {
   return e;
 }
 
-void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
+void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invisible) {
   const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
   if (!surfaces.has_area())
     diagnostics_.warning(use.loc, "an area light on a mesh without an area gives no light",
                          "its triangles are missing, or flat as lines");
-  const AreaEmission e = emission(use);
+  const AreaEmission e = emission(use, invisible);
   auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
   auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power",
@@ -100,11 +101,11 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index) {
   ++scene_.summary.lights[use.model + " area light"];
 }
 
-void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index) {
+void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool invisible) {
   const PatchMesh& mesh = scene_.geometry.patch_meshes[index];
   std::vector<PatchSurface> surfaces;
   for (uint32_t i = 0; i < mesh.patches.size(); ++i) surfaces.emplace_back(mesh, i);
-  const AreaEmission e = emission(use);
+  const AreaEmission e = emission(use, invisible);
   const auto lights = lights_on(surfaces, e, points_for(e, surfaces.size()));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", total_power(lights));
   scene_.patch_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
@@ -115,8 +116,8 @@ void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index) {
   ++scene_.summary.lights[use.model + " area light"];
 }
 
-void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index) {
-  const AreaEmission e = emission(use);
+void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool invisible) {
+  const AreaEmission e = emission(use, invisible);
   const DiffuseAreaLight<QuadricSurface> light(e, QuadricSurface(scene_.geometry.quadrics[index]), points_for(e, 1));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", light.power());
   scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
@@ -128,8 +129,8 @@ void compile_lights(const SceneDescription& description, Scene& scene, Diagnosti
   const Transform to_recentred = Transform::translate(-scene.origin);
   for (const LightDesc& desc : description.lights) {
     if (const ModelDecl* decl = find_model(Family::kLight, desc.use.model)) check_params(*decl, desc.use, diagnostics);
-    const auto light =
-        make_light(desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data}, diagnostics);
+    const auto light = make_light(
+        desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data, to_recentred}, diagnostics);
     if (!light) continue;
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));

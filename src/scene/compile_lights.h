@@ -17,14 +17,14 @@ class AreaLightCompiler {
   AreaLightCompiler(std::filesystem::path folder, Scene& scene, Diagnostics& diagnostics)
       : folder_(std::move(folder)), scene_(scene), diagnostics_(diagnostics) {}
 
-  // A light for each triangle, or for two that make a rectangle.
-  void add_mesh(const ModelUse& use, uint32_t mesh);
-  void add_patches(const ModelUse& use, uint32_t patch_mesh);
-  void add_quadric(const ModelUse& use, uint32_t quadric);
+  // A light for each triangle, or for two that make a rectangle. `invisible`: no ray meets the surface.
+  void add_mesh(const ModelUse& use, uint32_t mesh, bool invisible);
+  void add_patches(const ModelUse& use, uint32_t patch_mesh, bool invisible);
+  void add_quadric(const ModelUse& use, uint32_t quadric, bool invisible);
 
  private:
   // Without "scale" and "power".
-  AreaEmission emission(const ModelUse& use);
+  AreaEmission emission(const ModelUse& use, bool invisible);
 
   std::filesystem::path folder_;
   Scene& scene_;

@@ -1,7 +1,7 @@
 // Optical constants of metals and two clear crystals, at the wavelengths where they were published: data only.
-// Ag, Al, Au, Cu, MgO and TiO2 are the tables of the Luxpop and SOPRA collections, which the pbrt-v4 format refers to;
-// CuZn is brass of 70 % copper by Querry (1985), as refractiveindex.info has it (public domain). Numbers that are
-// measured are facts; 375 to 790 nm of them are kept.
+// Ag, Al, Au, Cu, MgO and TiO2 are the tables of the Luxpop and SOPRA collections, which the pbrt-v4 format refers to,
+// compared number by number with those in pbrt-v4's source; CuZn is brass of 70 % copper by Querry (1985), as
+// refractiveindex.info has it (public domain). Numbers that are measured are facts; 375 to 790 nm of them are kept.
 #include "spectrum/metal_data.h"
 
 namespace etd {

@@ -7,8 +7,8 @@ namespace etd {
 
 namespace {
 
-// Sellmeier coefficients of the maker's data sheets (SCHOTT 2017): n^2 = 1 + sum of b w^2 / (w^2 - c), w in
-// micrometres.
+// Sellmeier coefficients of the maker's data sheets (SCHOTT 2017; of the N- variants where there are two): n^2 = 1 +
+// sum of b w^2 / (w^2 - c), w in micrometres. They give the tables of pbrt-v4's source to all their digits.
 struct Glass {
   std::string_view name;
   double b[3], c[3];

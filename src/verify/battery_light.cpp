@@ -44,7 +44,8 @@ class LightRays {
     Seen seen;
     Hit hit;
     if (accelerator_.intersect(ray, hit)) seen.point = surface_point(model_.geometry, hit);
-    if (seen.point || model_.infinite) seen.radiance = model_.emitted(seen.point ? &*seen.point : nullptr, -ray.d);
+    if (seen.point || model_.infinite)
+      seen.radiance = model_.emitted(seen.point ? &*seen.point : nullptr, -ray.d, ray.o);
     return seen;
   }
   // Density of light samples along wi, of those that are visible and carry light.
@@ -74,7 +75,7 @@ void check_samples(const LightModel& m, const LightRays& rays, Point3 p, uint64_
     const SurfacePoint* on_light = m.infinite ? nullptr : &s->on_light;
     sound.add(std::abs(length(s->wi) - 1.0f), where);
     sound.add_relative(m.pdf_li(p, s->wi, on_light), s->pdf, where);
-    const Spectrum emitted = m.emitted(on_light, -s->wi);
+    const Spectrum emitted = m.emitted(on_light, -s->wi, p);
     for (int lane = 0; lane < 3; ++lane) sound.add_relative(emitted[lane], s->radiance[lane], where);
     if (!on_light) continue;
     sound.add(length(normalize(s->on_light.p - p) - s->wi), where);
@@ -174,7 +175,7 @@ void check_power(const LightModel& m, const LightRays& rays, size_t samples, uin
     }
     for (int lane = 0; lane < 3; ++lane) lanes[lane].add(static_cast<double>(sum[lane]));
   }
-  const double scale = 4.0 * kPiD * kPiD * (m.infinite ? 1.0 : kRadius * kRadius);
+  const double scale = 4.0 * kPiD * kPiD * (m.infinite && !m.through_portal ? 1.0 : kRadius * kRadius);
   for (int lane = 0; lane < 3; ++lane) {
     const double power = m.power[lane], flux = lanes[lane].mean() * scale;
     const double error2 = sqr(scale) * lanes[lane].variance_of_mean() + sqr(1e-5 * power);
@@ -201,12 +202,12 @@ void check_delta(const LightModel& m, size_t samples, uint64_t seed, Worst& fini
     if (s) {
       finite.add(is_finite(s->radiance) && !is_black(s->radiance) && is_finite(s->wi) ? 0.0 : 1.0, where);
       sound.add(std::abs(length(s->wi) - 1.0f), where);
-      sound.add(s->is_delta && s->pdf == 1.0f ? 0.0 : 1.0, where);
+      sound.add(s->is_delta && s->pdf > 0.0f && std::isfinite(s->pdf) ? 0.0 : 1.0, where);
       const SurfacePoint* on_light = m.infinite ? nullptr : &s->on_light;
-      sound.add(m.pdf_li(p, s->wi, on_light) + max_value(m.emitted(on_light, -s->wi)), where);
+      sound.add(m.pdf_li(p, s->wi, on_light) + max_value(m.emitted(on_light, -s->wi, p)), where);
       if (on_light) sound.add(length(normalize(s->on_light.p - p) - s->wi), where);
       const float inward = dot(s->wi, n);
-      crossing = s->radiance * (m.infinite ? std::max(0.0f, inward) : -inward);
+      crossing = s->radiance * ((m.infinite ? std::max(0.0f, inward) : -inward) / s->pdf);
     }
     for (int lane = 0; lane < 3; ++lane) lanes[lane].add(area * static_cast<double>(crossing[lane]));
   }
@@ -238,13 +239,14 @@ LightModel light_model(const LightExample& example) {
   }
   m.power = light.power();
   m.infinite = light.is_infinite();
+  m.through_portal = example.through_portal;
   m.delta = light.is_delta();
   m.sampling = example.sampling;
   m.sample_li = [light, sampling = example.sampling](Point3 p, Vec2 u) { return light.sample_li(p, u, sampling); };
   m.pdf_li = [light, sampling = example.sampling](Point3 p, Vec3 wi, const SurfacePoint* s) {
     return light.pdf_li(p, wi, s, sampling);
   };
-  m.emitted = [light](const SurfacePoint* s, Vec3 w) { return light.emitted(s, w); };
+  m.emitted = [light](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, from); };
   return m;
 }
 

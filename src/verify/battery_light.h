@@ -18,10 +18,11 @@ struct LightModel {
   Geometry geometry;
   Spectrum power;
   bool infinite = false, delta = false;
+  bool through_portal = false;  // see LightExample
   LightSampling sampling = LightSampling::kComplete;
   std::function<std::optional<LightSample>(Point3, Vec2)> sample_li;
   std::function<float(Point3, Vec3, const SurfacePoint*)> pdf_li;
-  std::function<Spectrum(const SurfacePoint*, Vec3)> emitted;
+  std::function<Spectrum(const SurfacePoint*, Vec3, Point3)> emitted;
 };
 LightModel light_model(const LightExample& example);
 

@@ -59,8 +59,6 @@ std::span<const UnsupportedParam> unsupported_params() {
 
       {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
 
-      {Family::kLight, "infinite", "portal", "", "light from all directions"},
-
       {Family::kCamera, "spherical", "lensradius", "*", "a spherical camera has no lens"},
       {Family::kCamera, "spherical", "focaldistance", "*", "a spherical camera has no lens"},
       {Family::kCamera, "spherical", "frameaspectratio", "*", "a spherical camera sees all directions"},
