@@ -72,12 +72,23 @@ TEST(Alpha, OneHasNoHolesAndZeroIsNotThere) {
   EXPECT_EQ(scene->geometry.quadrics.size(), 1u);
 }
 
-TEST(Alpha, AnInvisibleAreaLightIsNotSupported) {
-  Diagnostics diagnostics;
-  EXPECT_FALSE(compile_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0", diagnostics));
-  EXPECT_NE(diagnostics.format_all().find("an area light that shines but is not there (alpha 0) is not supported yet"),
-            std::string::npos)
-      << diagnostics.format_all();
+TEST(Alpha, AnAreaLightOfNoneShinesAndIsMetByNoRay) {
+  for (const char* shape : {"\"sphere\"", "\"disk\"", "\"trianglemesh\" \"point3 P\" [ -1 -1 0  1 -1 0  0 1 0 ]",
+                            "\"bilinearmesh\" \"point3 P\" [ -1 -1 0  1 -1 1  -1 1 0  1 1 0 ]"}) {
+    Diagnostics diagnostics;
+    const auto scene = compile_text(std::string("Shape \"sphere\" \"float radius\" 0.1 AreaLightSource \"diffuse\" ") +
+                                        "\"bool twosided\" true Shape " + shape + " \"float alpha\" 0",
+                                    diagnostics);
+    ASSERT_TRUE(scene) << diagnostics.format_all();
+    ASSERT_EQ(scene->lights.size(), 1u) << shape;
+    EXPECT_TRUE(scene->lights[0].is_delta());
+    const Point3 above{0.1f, 0.1f, 3};
+    const auto s = scene->lights[0].sample_li(above, {0.4f, 0.3f});
+    ASSERT_TRUE(s) << shape;
+    EXPECT_TRUE(s->is_delta && max_value(s->radiance) > 0);
+    Hit hit;
+    EXPECT_FALSE(scene->intersect({{0.5f, 0.1f, 3}, {0, 0, -1}}, hit)) << shape;  // beside the small ball
+  }
   Diagnostics missing;
   EXPECT_FALSE(compile_text("Shape \"sphere\" \"texture alpha\" \"holes\"", missing));
   EXPECT_NE(missing.format_all().find("there is no float texture \"holes\""), std::string::npos);

@@ -41,7 +41,8 @@ TEST(Energy, RoughMirrorsLoseNothing) {
       least = std::min(least, furnace(rough, at(cosine)));
     }
   EXPECT_LT(least, 0.6);  // there is something to compensate
-  // Straight on at alpha = 1 facets are distributed by the cosine, half of them reflect, with 2 c / (1 + c) of the light.
+  // Straight on at alpha = 1 facets are distributed by the cosine, half of them reflect, with 2 c / (1 + c) of the
+  // light.
   EXPECT_NEAR(mirror_energy().albedo(1, 1), 1 - std::log(2.0), 2e-3);
 }
 

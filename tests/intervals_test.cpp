@@ -1,5 +1,5 @@
-// Do the intervals that a render states cover the truth as often as they say? Many renders of one small image, each with
-// its own seed; the truth of a pixel is the mean over all of them. Numbers for docs/verification.md are printed.
+// Do the intervals that a render states cover the truth as often as they say? Many renders of one small image, each
+// with its own seed; the truth of a pixel is the mean over all of them. Numbers for docs/verification.md are printed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -227,7 +227,8 @@ void report_by_skewness(const std::string& name) {
 TEST(SlowIntervals, CornellBoxBySkewness) { report_by_skewness("cornell-box"); }
 TEST(SlowIntervals, VeachAjarBySkewness) { report_by_skewness("veach-ajar"); }
 
-// The study itself, on numbers whose answer is known: uniform numbers are covered as stated, and a constant has no trial.
+// The study itself, on numbers whose answer is known: uniform numbers are covered as stated, and a constant has no
+// trial.
 TEST(Intervals, TheStudyCountsWhatItShould) {
   const auto pixels = study(400, [](size_t seed) {
     Film film({.width = 2, .height = 1, .crop = {0, 0, 2, 1}, .replicates = 8, .features = false});

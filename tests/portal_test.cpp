@@ -54,7 +54,8 @@ TEST(WindowedDistribution, SamplesFollowTheirDensity) {
       sum += f / kSamples, sum2 += f * f / kSamples, area += 1 / d.pdf(p, w) / kSamples;
     }
     const double wx = w.hi.x - w.lo.x, wy = w.hi.y - w.lo.y;
-    const double expected = (std::pow(w.hi.x, 3) - std::pow(w.lo.x, 3)) / 3 * wy + (w.hi.y * w.hi.y - w.lo.y * w.lo.y) / 2 * wx;
+    const double expected =
+        (std::pow(w.hi.x, 3) - std::pow(w.lo.x, 3)) / 3 * wy + (w.hi.y * w.hi.y - w.lo.y * w.lo.y) / 2 * wx;
     EXPECT_NEAR(sum, expected, 5 * std::sqrt((sum2 - sum * sum) / kSamples) + 1e-12);
     EXPECT_NEAR(area, wx * wy, 0.2 * wx * wy);
   }
@@ -77,7 +78,8 @@ TEST(Portal, ShowsTheSkyThroughItselfAndNothingElse) {
     const float along = dot(w, window.frame.z), t = dot(window.corner - p, window.frame.z) / along;
     const Vec3 at = window.frame.to_local(p + w * t - window.corner);
     const bool inside = along > 0 && t > 0 && at.x > 0 && at.x < 1.5f && at.y > 0 && at.y < 2;
-    const float edge = std::min(std::min(std::abs(at.x), std::abs(at.x - 1.5f)), std::min(std::abs(at.y), std::abs(at.y - 2)));
+    const float edge =
+        std::min(std::min(std::abs(at.x), std::abs(at.x - 1.5f)), std::min(std::abs(at.y), std::abs(at.y - 2)));
     if (edge < 1e-3f || std::abs(along) < 1e-3f || std::abs(t) < 1e-3f) continue;
     through += inside;
     EXPECT_EQ(portal.value(p, w)[1], inside ? sky.value(axes.to_local(w))[1] : 0.0f);

@@ -1,5 +1,5 @@
-// How surely verdicts find a difference of known size between renders, and how often they see one that is not there. The
-// table in docs/verification.md is what this prints.
+// How surely verdicts find a difference of known size between renders, and how often they see one that is not there.
+// The table in docs/verification.md is what this prints.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,9 +49,9 @@ double detected(const std::vector<Estimate>& pool, const Bias& bias, double size
   return found / pairs;
 }
 
-// A pair of equal renders raises a false alarm with a probability of 1e-4, one of 66 with at most 0.7 %: this test fails
-// for one choice of seeds in 150, and the seeds are fixed. That a bias of 1 % is missed has a probability below 1e-6
-// each: the detectable difference, at 99 %, is checked to be well below it.
+// A pair of equal renders raises a false alarm with a probability of 1e-4, one of 66 with at most 0.7 %: this test
+// fails for one choice of seeds in 150, and the seeds are fixed. That a bias of 1 % is missed has a probability below
+// 1e-6 each: the detectable difference, at 99 %, is checked to be well below it.
 TEST(StatisticalPower, OfVerdictsOnRenders) {
   const std::vector<Estimate> pool = make_pool("sobol", 256, 8);
   const Verdict v = compare(pool[0], pool[1]);

@@ -56,8 +56,8 @@ struct Blocks {
 
 Blocks compare_blocks(const BlockScene& scene, const std::filesystem::path& folder, uint32_t spp, uint64_t seed) {
   const Film film = render_ours(folder, spp, seed);
-  EstimateResult reference = make_estimate(read_grey(folder / "reference-grey.exr"),
-                                           read_grey(folder / "reference-grey-stderr.exr"), 8);
+  EstimateResult reference =
+      make_estimate(read_grey(folder / "reference-grey.exr"), read_grey(folder / "reference-grey-stderr.exr"), 8);
   if (!reference.estimate) throw std::runtime_error(reference.problem);
   reference.estimate->samples = scene.samples;
   const Verdict v = compare(make_estimate(film), *reference.estimate, {.tolerance = 0.005, .block = kBlock});
@@ -85,13 +85,15 @@ Blocks compare_blocks(const BlockScene& scene, const std::filesystem::path& fold
   return blocks;
 }
 
-// False alarms: 1e-4 for each scene, squared because a failure is repeated with four times the samples and another seed.
+// False alarms: 1e-4 for each scene, squared because a failure is repeated with four times the samples and another
+// seed.
 void expect_blocks(const BlockScene& scene, uint32_t more = 1) {
   const std::filesystem::path folder = shared_path(std::string("scenes/pbrt/") + scene.name);
   if (folder.empty()) GTEST_SKIP() << "the shared folder with the scene " << scene.name << " is absent";
   Blocks blocks = compare_blocks(scene, folder, scene.spp * more, 11);
   if (!blocks.failed.empty()) {
-    std::cout << scene.name << ": " << blocks.failed.size() << " blocks differ, once more with four times the samples\n";
+    std::cout << scene.name << ": " << blocks.failed.size()
+              << " blocks differ, once more with four times the samples\n";
     blocks = compare_blocks(scene, folder, 4 * scene.spp * more, 12);
   }
   std::cout << fmt::format("{:12} {} blocks, {} excused, {} differ; median standard error {:.2f} %\n", scene.name,

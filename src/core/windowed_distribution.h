@@ -36,7 +36,9 @@ class WindowedDistribution {
  private:
   // Of the densities over [0, x] x [0, y].
   double sum(double x, double y) const;
-  double corner(int x, int y) const { return sums_[static_cast<size_t>(y) * static_cast<size_t>(width_ + 1) + static_cast<size_t>(x)]; }
+  double corner(int x, int y) const {
+    return sums_[static_cast<size_t>(y) * static_cast<size_t>(width_ + 1) + static_cast<size_t>(x)];
+  }
 
   int width_ = 0, height_ = 0;
   std::vector<double> sums_;  // at the corners of the cells

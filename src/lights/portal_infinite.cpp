@@ -46,8 +46,7 @@ std::optional<PortalInfiniteLight> PortalInfiniteLight::create(const ParamReader
     map.emplace(Image(1, 1, 3, {radiance[0], radiance[1], radiance[2]}));
   }
   if (!portal || !axes || !map) return {};
-  const float scale =
-      emission_scale(p, "illuminance", p.number("illuminance") > 0 ? map->irradiance_up() : Spectrum());
+  const float scale = emission_scale(p, "illuminance", p.number("illuminance") > 0 ? map->irradiance_up() : Spectrum());
   const EnvironmentMap& kept = context.data.environments.emplace_back(std::move(*map));
   return PortalInfiniteLight{&context.data.portals.emplace_back(kept, *axes, *portal), scale};
 }
