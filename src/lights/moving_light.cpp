@@ -26,7 +26,7 @@ SurfacePoint to_object(const SurfacePoint& s, const Placement& at) {
 Light Light::moving(const AnimatedTransform& motion) const {
   Light light = *this;
   light.motion_ = &motion;
-  light.power_scale_ = is_infinite() || is_delta() ? 1.0f : static_cast<float>(motion.mean_area_scale());
+  light.power_scale_ = is_infinite() ? 1.0f : static_cast<float>(motion.mean_area_scale());
   return light;
 }
 
@@ -38,7 +38,7 @@ std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, LightSampling 
     s->wi = normalize(at.to_world.vector(s->wi));
     if (s->is_delta) return s;
     // Looked up again for the direction as it was rounded, as rays that meet it otherwise do.
-    s->radiance = emitted(nullptr, -s->wi, time);
+    s->radiance = emitted(nullptr, -s->wi, p, time);
     s->pdf = pdf_moving(p, s->wi, nullptr, sampling, time);
   } else {
     s->on_light = to_world(s->on_light, at);
@@ -46,9 +46,9 @@ std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, LightSampling 
     const float d2 = dot(d, d);
     if (!(d2 > 0.0f)) return {};
     s->wi = d * (1.0f / std::sqrt(d2));
-    if (s->is_delta) return s;
-    s->radiance = emitted(&s->on_light, -s->wi, time);
     s->pdf *= solid_angle_stretch(at, s->wi);
+    if (s->is_delta) return s;
+    s->radiance = emitted(&s->on_light, -s->wi, p, time);
   }
   if (is_black(s->radiance) || !(s->pdf > 0.0f) || !std::isfinite(s->pdf)) return {};
   return s;

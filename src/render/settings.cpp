@@ -56,7 +56,7 @@ void read_film(const ParamReader& reader, const SceneDescription& description, c
   settings.half = film.half;
   settings.sensor = film.sensor;
   settings.positions = film.positions;
-  if (film.in_camera_space) settings.feature_space = description.camera_to_world.inverse();
+  if (film.in_camera_space) settings.feature_space = description.camera_to_world.start.inverse();
   if (!overrides.crop) return;
   const PixelBounds& c = *overrides.crop;
   if (c.empty() || c.x0 < 0 || c.y0 < 0 || c.x1 > film.width || c.y1 > film.height)
