@@ -140,7 +140,8 @@ std::optional<Light> make_moving_light(const LightDesc& desc, const std::filesys
     diagnostics.error(desc.use.loc, fmt::format("this {} light changes its size while it moves", desc.use.model),
                       "lights that are no shapes can only be translated and turned");
   if (const Param* portal = desc.use.find("portal")) {
-    diagnostics.error(portal->loc, "a light behind a portal can't move");
+    diagnostics.error(portal->loc, "a light behind a portal can't move",
+                      "the portal is in the world, not on the light");
     return {};
   }
   const auto light = make_light(desc.use, {size, folder, scene.light_data, {}}, diagnostics);
