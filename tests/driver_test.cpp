@@ -241,7 +241,7 @@ class Probe : public Integrator {
  public:
   IntegratorTraits traits() const override { return {}; }
   size_t work_items(const Pass&) const override { return 64; }
-  void render(const Pass&, size_t item, Film&, RayCounts&) const override {
+  void render(const Pass&, size_t item, Film&, ItemCounts&) const override {
     if (item == fail_at) throw std::runtime_error("item failed");
     if ((_mm_getcsr() & 0x8040) != 0x8040) ++without_flush;
     const int now = ++running;
@@ -275,9 +275,9 @@ TEST(Driver, ItemsFlushDenormalsAndUseTheThreadsAskedFor) {
 class SlowSecondPass : public NoiseIntegrator {
  public:
   using NoiseIntegrator::NoiseIntegrator;
-  void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const override {
+  void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override {
     if (pass.index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    NoiseIntegrator::render(pass, item, film, rays);
+    NoiseIntegrator::render(pass, item, film, counts);
   }
 };
 

@@ -106,10 +106,10 @@ TEST(Film, EverySumIsKeptPerReplicateAndFolded) {
 
 TEST(Film, FeaturesCanBeLeftOut) {
   FilmSettings settings{.width = 4, .height = 4, .crop = {0, 0, 4, 4}, .replicates = 3};
-  EXPECT_EQ(Film(settings).bytes(), 16u * 3u * 23u * sizeof(double));
+  EXPECT_EQ(Film(settings).bytes(), 16u * (3u * 23u * sizeof(double) + sizeof(StrongestSample)));
   settings.features = false;
   Film film(settings);
-  EXPECT_EQ(film.bytes(), 16u * 3u * 15u * sizeof(double));
+  EXPECT_EQ(film.bytes(), 16u * (3u * 15u * sizeof(double) + sizeof(StrongestSample)));
   EXPECT_EQ(film.bytes(), Film::bytes_for(settings));
   PixelSample s = grey(2);
   s.depth = 7;

@@ -16,7 +16,7 @@ class NoiseIntegrator : public Integrator {
   size_t work_items(const Pass&) const override {
     return static_cast<size_t>(tiles(film_.crop.width())) * static_cast<size_t>(tiles(film_.crop.height()));
   }
-  void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const override {
+  void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override {
     const int columns = tiles(film_.crop.width());
     const int x0 = film_.crop.x0 + static_cast<int>(item) % columns * tile_;
     const int y0 = film_.crop.y0 + static_cast<int>(item) / columns * tile_;
@@ -26,7 +26,7 @@ class NoiseIntegrator : public Integrator {
           PixelSums sums;
           for (uint32_t i = pass.begin; i < pass.end; ++i) {
             const PixelSample s = sample(x, y, r, i);
-            rays += s.rays;
+            counts.rays += s.rays;
             sums.add(s);
           }
           film.add(x, y, r, sums);

@@ -31,10 +31,11 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   stats.load_seconds = 0.5, stats.build_seconds = 1.5, stats.render_seconds = 2.5;
   stats.rays = {1, 2, 1ull << 40};
   stats.rays_per_pixel_mean = 9.25, stats.rays_per_pixel_max = 12;
+  stats.invalid = {3, 2, 1, {}};
   stats.paths = 7, stats.peak_bytes = peak_memory_bytes(), stats.spp = 64;
   EXPECT_GT(stats.peak_bytes, 1u << 20);
   const auto json = nlohmann::json::parse(stats_json(stats));
-  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(json.size(), 7u);
   EXPECT_EQ(json["seconds"]["load"], 0.5);
   EXPECT_EQ(json["seconds"]["build"], 1.5);
   EXPECT_EQ(json["seconds"]["render"], 2.5);
@@ -43,6 +44,9 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   EXPECT_EQ(json["rays"]["shadow"], 1ull << 40);
   EXPECT_EQ(json["rays_per_pixel"]["mean"], 9.25);
   EXPECT_EQ(json["rays_per_pixel"]["max"], 12);
+  EXPECT_EQ(json["invalid"]["nan"], 3);
+  EXPECT_EQ(json["invalid"]["infinite"], 2);
+  EXPECT_EQ(json["invalid"]["negative"], 1);
   EXPECT_EQ(json["paths"], 7);
   EXPECT_EQ(json["peak_bytes"], stats.peak_bytes);
   EXPECT_EQ(json["spp"], 64);

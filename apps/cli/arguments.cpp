@@ -12,7 +12,17 @@
 namespace etd::cli {
 namespace {
 
-// Integers with the given separator between them; nothing when the text is anything else.
+template <class T>
+void add_value(CLI::App& command, const std::string& name, std::optional<T>& to, const std::string& help,
+               const std::string& type) {
+  command
+      .add_option_function<T>(
+          name, [&to](const T& value) { to = value; }, help)
+      ->type_name(type);
+}
+
+}  // namespace
+
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator, size_t count) {
   std::vector<int> values;
   while (true) {
@@ -27,17 +37,6 @@ std::optional<std::vector<int>> parse_integers(std::string_view text, char separ
   if (values.size() != count) return {};
   return values;
 }
-
-template <class T>
-void add_value(CLI::App& command, const std::string& name, std::optional<T>& to, const std::string& help,
-               const std::string& type) {
-  command
-      .add_option_function<T>(
-          name, [&to](const T& value) { to = value; }, help)
-      ->type_name(type);
-}
-
-}  // namespace
 
 void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args) {
   command

@@ -28,6 +28,9 @@ void add_crop_option(CLI::App& command, std::optional<PixelBounds>& to, const st
 // reported, and the description is as complete as could be read.
 SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics);
 
+// Integers with the given separator between them, "640x360"; nothing when the text is anything else.
+std::optional<std::vector<int>> parse_integers(std::string_view text, char separator, size_t count);
+
 // Everything that was found, to stderr.
 void print_diagnostics(const Diagnostics& diagnostics);
 

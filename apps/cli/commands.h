@@ -7,15 +7,16 @@
 
 namespace etd::cli {
 
-// 0: done; 1: an internal error; 2: something is wrong with what the user gave; 130, 143: stopped by a signal, with the
-// image written. `diff` has codes of its own.
-enum ExitCode : int { kOk = 0, kInternalError = 1, kBadInput = 2 };
+// 0: done; 1: an internal error; 2: something is wrong with what the user gave; 3: done, but with invalid samples, when
+// --strict asks to fail then; 130, 143: stopped by a signal, with the image written. `diff` has codes of its own.
+enum ExitCode : int { kOk = 0, kInternalError = 1, kBadInput = 2, kInvalidSamples = 3 };
 
 using Run = std::function<int()>;
 
 void add_render(CLI::App& app, Run& run);
 void add_tonemap(CLI::App& app, Run& run);
 void add_diff(CLI::App& app, Run& run);
+void add_replay(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_describe(CLI::App& app, Run& run);

@@ -1,11 +1,11 @@
-// `etendue info`: what is in a scene, and the memory it takes.
+// `etendue info`: what is in a scene, and the memory it takes; or how an image was made.
 #include <fmt/format.h>
 
 #include <map>
 
 #include "arguments.h"
 #include "commands.h"
-#include "render/session.h"
+#include "render/provenance.h"
 #include "scene/scene.h"
 
 namespace etd::cli {
@@ -60,16 +60,46 @@ void print_info(const PreparedRender& prepared) {
   fmt::print("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + lights + film));
 }
 
+// What an image knows of itself, and a warning when it is marked.
+int print_image_info(const std::string& path) {
+  const LayersResult read = read_layers(path);
+  if (!read.image) {
+    fmt::print(stderr, "etendue: {}: {}\n", path, read.error);
+    return kBadInput;
+  }
+  const LayeredImage& image = *read.image;
+  fmt::print("{:<26}{}x{} at {},{} of {}x{}\n{:<26}{}\n", "pixels", image.width, image.height, image.x, image.y,
+             image.full_width, image.full_height, "channels", fmt::join(image.channels, " "));
+  constexpr std::string_view kOurs = "etendue:";
+  std::map<std::string, std::string> entries;
+  for (const auto& [name, value] : image.metadata)
+    if (name.compare(0, kOurs.size(), kOurs) == 0)
+      entries[name.substr(kOurs.size())] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+  if (const auto provenance = read_provenance(image))
+    entries["strongest"] =
+        fmt::format("{} samples remembered (etendue replay {} --fireflies 10)", provenance->strongest.size(), path);
+  for (const auto& [name, text] : entries) fmt::print("{:<26}{}\n", name, text);
+  if (const auto invalid = entries.find("invalid_samples"); invalid != entries.end() && invalid->second != "none")
+    fmt::print(stderr, "etendue: warning: {}: samples were invalid ({}) and were taken for black\n", path,
+               invalid->second);
+  return kOk;
+}
+
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
   auto args = std::make_shared<SceneArguments>();
-  CLI::App* command = app.add_subcommand("info", "Show what is in a scene, and the memory it takes.");
+  CLI::App* command =
+      app.add_subcommand("info", "Show what is in a scene, and the memory it takes; or how an image was made.");
   add_scene_options(*command, args);
   add_override_options(*command, args);
-  command->footer("Example:\n  etendue info scene.pbrt --size 3840x2160    memory of a larger film");
+  command->footer(
+      "Examples:\n"
+      "  etendue info scene.pbrt --size 3840x2160    memory of a larger film\n"
+      "  etendue info picture.exr                    how an image was made");
   command->callback([args, &run] {
     run = [args]() -> int {
+      if (is_layered_path(args->scene)) return print_image_info(args->scene);
       Diagnostics diagnostics(args->allow_unsupported);
       const auto prepared = prepare_render(load_scene(args->scene, diagnostics), args->overrides, diagnostics);
       print_diagnostics(diagnostics);

@@ -21,6 +21,7 @@ constexpr const char* kExamples = R"(Examples:
   etendue render scene.pbrt --size 640x360 --spp 64      smaller, and 64 samples per pixel
   etendue tonemap out.exr out.jpg --operator filmic      another picture of what was rendered
   etendue diff a.exr b.exr                               how two images differ, and whether more than noise does
+  etendue replay out.exr --fireflies 10                  the strongest samples of an image, path by path
   etendue check scene.pbrt                               everything that is wrong with a scene
   etendue describe material conductor                    its parameters
 
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
   etd::cli::add_render(app, run);
   etd::cli::add_tonemap(app, run);
   etd::cli::add_diff(app, run);
+  etd::cli::add_replay(app, run);
   etd::cli::add_info(app, run);
   etd::cli::add_check(app, run);
   etd::cli::add_describe(app, run);

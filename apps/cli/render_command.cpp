@@ -10,6 +10,7 @@
 #include "io/file.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
+#include "render/provenance.h"
 #include "render/session.h"
 #include "watching.h"
 
@@ -20,6 +21,7 @@ struct Arguments : SceneArguments {
   std::vector<std::string> outputs;
   std::string stats;
   bool replicate_layers = false;
+  bool strict = false;
   WatchOptions watch;
 };
 
@@ -79,6 +81,16 @@ void print_summary(const PreparedRender& prepared, const RenderResult& result) {
              error_text(result.error));
 }
 
+void report_invalid_samples(const PreparedRender& prepared, const RenderResult& result) {
+  const InvalidSamples& invalid = result.invalid;
+  if (!invalid.first) return;
+  fmt::print(stderr,
+             "etendue: warning: {} of {} samples are invalid ({}) and were taken for black; the image is marked. The "
+             "first of them, step by step:\n  {}\n",
+             invalid.total(), result.rays.camera, invalid_text(invalid),
+             replay_command(prepared, result, *invalid.first));
+}
+
 // Writes everything even when one file fails, since an image costs more than a message.
 bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const LayeredImage& image,
                const RenderStats& stats) {
@@ -127,9 +139,11 @@ int render_scene(const Arguments& args) {
   stats.load_seconds = load_seconds;
   const bool written = write_all(args, outputs, finished_image(*prepared, finished, args.replicate_layers), stats);
   print_summary(*prepared, finished.result);
+  report_invalid_samples(*prepared, finished.result);
   watchers.end(finished.film);
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
-  return written ? kOk : kInternalError;
+  if (!written) return kInternalError;
+  return args.strict && finished.result.invalid.total() > 0 ? kInvalidSamples : kOk;
 }
 
 }  // namespace
@@ -182,6 +196,8 @@ void add_render(CLI::App& app, Run& run) {
   command->add_option("--stats", args->stats, "write times, rays and memory as JSON")->type_name("FILE");
   command->add_flag("--replicate-layers", args->replicate_layers,
                     "add what each replicate sees to .exr files: layers replicate0, replicate1, ...");
+  command->add_flag("--strict", args->strict,
+                    "exit with 3 when a sample was NaN, infinite or negative; the image is written all the same");
   command->add_flag("--quiet", args->watch.quiet, "no progress");
   command->footer(kExamples);
   command->callback([args, &run] { run = [args] { return render_scene(*args); }; });

@@ -25,18 +25,25 @@ std::array<double, 4> spread_of_replicates(const std::vector<std::array<double, 
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings) : settings_(settings), sums_(bytes_for(settings) / sizeof(double), 0.0) {
+Film::Film(const FilmSettings& settings)
+    : settings_(settings),
+      sums_(pixel_count(settings.crop) * settings.replicates * film_channels(settings.features), 0.0),
+      strongest_(pixel_count(settings.crop)) {
   const PixelBounds& c = settings_.crop;
   assert(settings_.replicates > 0);
   assert(c.empty() || (c.x0 >= 0 && c.y0 >= 0 && c.x1 <= settings_.width && c.y1 <= settings_.height));
   static_cast<void>(c);
 }
 
-size_t Film::offset(int x, int y, uint32_t replicate) const {
+size_t Film::pixel(int x, int y) const {
   const PixelBounds& c = settings_.crop;
-  assert(x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1 && replicate < settings_.replicates);
-  const size_t pixel = static_cast<size_t>(y - c.y0) * static_cast<size_t>(c.width()) + static_cast<size_t>(x - c.x0);
-  return (pixel * settings_.replicates + replicate) * film_channels(settings_.features);
+  assert(x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1);
+  return static_cast<size_t>(y - c.y0) * static_cast<size_t>(c.width()) + static_cast<size_t>(x - c.x0);
+}
+
+size_t Film::offset(int x, int y, uint32_t replicate) const {
+  assert(replicate < settings_.replicates);
+  return (pixel(x, y) * settings_.replicates + replicate) * film_channels(settings_.features);
 }
 
 void Film::add(int x, int y, uint32_t replicate, const PixelSums& sums) {
@@ -84,10 +91,10 @@ std::array<double, 4> Film::standard_error(int x, int y) const {
   return error;
 }
 
-size_t Film::bytes() const { return sums_.size() * sizeof(double); }
+size_t Film::bytes() const { return bytes_for(settings_); }
 
 size_t Film::bytes_for(const FilmSettings& s) {
-  return pixel_count(s.crop) * s.replicates * film_channels(s.features) * sizeof(double);
+  return pixel_count(s.crop) * (s.replicates * film_channels(s.features) * sizeof(double) + sizeof(StrongestSample));
 }
 
 }  // namespace etd

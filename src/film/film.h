@@ -6,6 +6,7 @@
 
 #include "core/bounds.h"
 #include "film/pixel_sample.h"
+#include "film/strongest.h"
 
 namespace etd {
 
@@ -27,6 +28,9 @@ class Film {
   // Adds the sums of one pass to a pixel (full-image coordinates inside the crop). Different pixels may be added
   // concurrently; sums of one (pixel, replicate) are added in the order of the calls.
   void add(int x, int y, uint32_t replicate, const PixelSums& sums);
+  // Remembers the candidate if the pixel has none that is as strong.
+  void offer(int x, int y, const StrongestSample& candidate) { strongest_[pixel(x, y)].offer(candidate); }
+  const StrongestSample& strongest(int x, int y) const { return strongest_[pixel(x, y)]; }
   // What has been accumulated so far for a pixel and replicate.
   PixelSums sums(int x, int y, uint32_t replicate) const;
   // All replicates folded in their order.
@@ -40,10 +44,12 @@ class Film {
   static size_t bytes_for(const FilmSettings& settings);
 
  private:
+  size_t pixel(int x, int y) const;
   size_t offset(int x, int y, uint32_t replicate) const;
 
   FilmSettings settings_;
   std::vector<double> sums_;  // [pixel][replicate][channel]
+  std::vector<StrongestSample> strongest_;
 };
 
 }  // namespace etd

@@ -2,11 +2,11 @@
 
 namespace etd {
 
-void PixelSums::add(const PixelSample& s) {
+double PixelSums::add(const PixelSample& s) {
   std::array<double, 4> radiance;
   for (size_t i = 0; i < 3; ++i) {
     const int lane = static_cast<int>(i);
-    const double e = s.emission[lane], d = s.direct[lane], n = s.indirect[lane];
+    const double e = s.weight * s.emission[lane], d = s.weight * s.direct[lane], n = s.weight * s.indirect[lane];
     emission[i] += e;
     direct[i] += d;
     indirect[i] += n;
@@ -20,6 +20,7 @@ void PixelSums::add(const PixelSample& s) {
   coverage += s.coverage;
   count += 1;
   rays += static_cast<double>(s.rays.total());
+  return radiance[3];
 }
 
 PixelSums& PixelSums::operator+=(const PixelSums& b) {

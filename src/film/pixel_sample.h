@@ -18,10 +18,11 @@ struct RayCounts {
   }
 };
 
-// Radiance split by path depth (0: emission, 1: direct, 2 and more: indirect), already divided by the sample's density
-// and weighted by the filter; features at the first non-delta vertex (zero on a miss).
+// Radiance split by path depth (0: emission, 1: direct, 2 and more: indirect), already divided by the sample's density;
+// features at the first non-delta vertex (zero on a miss).
 struct PixelSample {
   Spectrum emission, direct, indirect;
+  float weight = 1;  // of the pixel filter, by which the film multiplies the radiance; may be negative
   Spectrum albedo;
   Vec3 normal;         // shading normal in world space on the viewer's side
   float depth = 0;     // path length to that vertex, in metres
@@ -37,7 +38,8 @@ struct PixelSums {
   double depth = 0, coverage = 0;
   double count = 0, rays = 0;
 
-  void add(const PixelSample& s);
+  // Returns the luminance of the sample as it was added: with the weight.
+  double add(const PixelSample& s);
   PixelSums& operator+=(const PixelSums& b);
 
   // Means over the samples; zero where none was taken.

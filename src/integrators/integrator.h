@@ -6,6 +6,7 @@
 #include <string>
 
 #include "film/film.h"
+#include "film/invalid_samples.h"
 
 namespace etd {
 
@@ -23,6 +24,14 @@ struct Pass {
   uint32_t begin = 0, end = 0;
 };
 
+struct PathRecord;
+
+// What happened in a work item beside what the film holds; sums do not depend on the order of the items.
+struct ItemCounts {
+  RayCounts rays;
+  InvalidSamples invalid;
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -32,8 +41,11 @@ class Integrator {
   virtual void prepare(const Pass&) {}
   virtual size_t work_items(const Pass& pass) const = 0;
   // Runs one item. Items of a pass never touch the same pixel.
-  virtual void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const = 0;
+  virtual void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const = 0;
   virtual void end(const Pass&) {}
+  // Draws one sample again, with the same numbers as in a render, and tells how it came about (path_record.h). False
+  // when the algorithm has no samples that can be drawn alone.
+  virtual bool replay(const SampleId&, PathRecord&) const { return false; }
 };
 
 }  // namespace etd

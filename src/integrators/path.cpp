@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "accel/spawn.h"
+#include "integrators/path_record.h"
 #include "materials/surface_scatter.h"
 
 namespace etd {
@@ -90,16 +91,19 @@ struct Vertex {
 };
 
 // Radiance that one sampled light sends along wo through the vertex, weighted against closure sampling under MIS.
+template <class Recorder>
 Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler& sampler, HashStream& rng, float time,
-                    PixelSample& out) {
+                    PixelSample& out, Recorder& recorder) {
   const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
   const auto choice = scene.light_sampler.sample(u_light);
   if (!choice) return Spectrum();
+  recorder.light(choice->light, choice->probability);
   const Light& light = scene.lights[choice->light];
   const auto s = light.sample_li(v.point.p, u_point, light_sampling(mode));
   if (!s) return Spectrum();
   Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
+  recorder.light_sample(*s, f);
   if (is_black(f)) return Spectrum();
   ++out.rays.shadow;
   const bool infinite = light.is_infinite();
@@ -107,21 +111,34 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
   const bool both = mode == PathMode::kMis && !s->is_delta;
-  const float weight = both ? mis_weight(pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
+  const float scatter_pdf = both ? v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance) : 0.0f;
+  const float weight = both ? mis_weight(pdf, scatter_pdf) : 1.0f;
+  recorder.light_visible(scatter_pdf, weight);
   return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
 }
 
 }  // namespace
 
 PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
+  return trace(x, y, sampler, NoRecorder());
+}
+
+PixelSample PathIntegrator::record_pixel(int x, int y, Sampler& sampler, PathRecord& record) const {
+  return trace(x, y, sampler, PathRecorder(record));
+}
+
+template <class Recorder>
+PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recorder) const {
   PixelSample out;
   const FilterSample film = scene_.filter.sample(sampler.get_2d());
+  out.weight = film.weight;
   const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
                         sampler.get_2d(),
                         0.0f};
   Ray ray = scene_.camera.generate_ray(at);
+  recorder.camera(at, ray);
 
-  Spectrum beta(film.weight);   // throughput: the product of f cos / pdf so far
+  Spectrum beta(1.0f);          // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
@@ -130,25 +147,33 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
   float path_length = 0.0f;
 
   const auto add = [&](int depth, const Spectrum& radiance) {
-    if (depth == 0 && settings_.emission) out.emission += radiance;
-    if (depth == 1 && settings_.direct) out.direct += radiance;
-    if (depth >= 2 && settings_.indirect) out.indirect += radiance;
+    if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
+    (depth == 0 ? out.emission : depth == 1 ? out.direct : out.indirect) += radiance;
+    recorder.contribution(depth, radiance);
   };
-  // Weight of emission that scattering found: light sampling could have found it with density pdf_light.
-  const auto emission_weight = [&](uint32_t light, const SurfacePoint* on_light) {
-    if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;
-    if (settings_.mode == PathMode::kNextEvent) return 0.0f;
-    const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode));
-    return mis_weight(scatter_pdf, scene_.light_sampler.probability(light) * pdf);
+  // Emission that scattering found, weighted: light sampling could have found it with density pdf_light.
+  const auto add_emission = [&](int depth, uint32_t light, const SurfacePoint* on_light) {
+    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, ray.o);
+    if (is_black(radiance)) return;
+    float pdf_light = 0.0f, weight = 1.0f;
+    if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
+    if (!only_scattering && settings_.mode == PathMode::kMis) {
+      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode));
+      pdf_light = scene_.light_sampler.probability(light) * pdf;
+      weight = mis_weight(scatter_pdf, pdf_light);
+    }
+    recorder.emission(light, radiance, scatter_pdf, pdf_light, weight);
+    add(depth, beta * radiance * weight);
   };
 
   for (int depth = 0;; ++depth) {
     // Find the next vertex.
+    recorder.vertex(depth, beta, -ray.d);
     Hit hit;
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
-      for (uint32_t light : scene_.infinite_lights)
-        add(depth, beta * scene_.lights[light].emitted(nullptr, -ray.d, ray.o) * emission_weight(light, nullptr));
+      for (uint32_t light : scene_.infinite_lights) add_emission(depth, light, nullptr);
+      recorder.end(PathEnd::kEscaped);
       break;
     }
     const SurfaceHit surface = scene_.surface(hit);
@@ -157,15 +182,13 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     path_length += hit.t;
 
     // Light that the vertex emits.
-    if (surface.light != kNoId) {
-      const Spectrum radiance = scene_.lights[surface.light].emitted(&point, wo);
-      if (!is_black(radiance)) add(depth, beta * radiance * emission_weight(surface.light, &point));
-    }
+    if (surface.light != kNoId) add_emission(depth, surface.light, &point);
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
     const Shading shading = scene_.shade(surface, rng);
     const Bsdf& bsdf = shading.closure;
+    recorder.surface(hit, surface, shading);
     if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
       out.albedo = bsdf.albedo(shading.frame.to_local(wo));
       out.normal = face_forward(shading.frame.z, wo);
@@ -173,19 +196,27 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
       out.coverage = 1.0f;
       features_pending = false;
     }
-    if (depth == settings_.max_depth) break;
+    if (depth == settings_.max_depth) {
+      recorder.end(PathEnd::kDepth);
+      break;
+    }
     const SurfaceScatter scatter(bsdf, shading.frame, point.ng);
 
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      add(depth + 1, beta * next_event(scene_, {point, scatter, wo}, settings_.mode, sampler, rng, ray.time, out));
+      add(depth + 1,
+          beta * next_event(scene_, {point, scatter, wo}, settings_.mode, sampler, rng, ray.time, out, recorder));
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.
     sampler.set_dimension(dimension + kScatter);
     const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kRadiance, rng);
-    if (!s) break;
+    if (!s) {
+      recorder.end(PathEnd::kAbsorbed);
+      break;
+    }
+    recorder.scatter(*s);
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;
@@ -197,7 +228,12 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {
       sampler.set_dimension(dimension + kRoulette);
-      if (!(sampler.get_1d() < survival)) break;
+      const bool survived = sampler.get_1d() < survival;
+      recorder.roulette(survival, survived);
+      if (!survived) {
+        recorder.end(PathEnd::kRoulette);
+        break;
+      }
       beta *= 1.0f / survival;
     }
   }

@@ -33,8 +33,12 @@ class PathIntegrator : public PixelIntegrator {
 
  protected:
   PixelSample sample_pixel(int x, int y, Sampler& sampler) const override;
+  PixelSample record_pixel(int x, int y, Sampler& sampler, PathRecord& record) const override;
 
  private:
+  template <class Recorder>
+  PixelSample trace(int x, int y, Sampler& sampler, Recorder recorder) const;
+
   const Scene& scene_;
   PathSettings settings_;
 };

@@ -1,5 +1,8 @@
 #include "integrators/pixel_integrator.h"
 
+#include "core/flush_to_zero.h"
+#include "integrators/path_record.h"
+
 namespace etd {
 
 namespace {
@@ -13,30 +16,51 @@ size_t PixelIntegrator::work_items(const Pass&) const {
          tiles_along(context_.crop.height(), context_.tile_size);
 }
 
-PixelSample PixelIntegrator::sample(int x, int y, uint32_t replicate, uint32_t index) const {
+Sampler PixelIntegrator::start(int x, int y, uint32_t replicate, uint32_t index) const {
   Sampler sampler(context_.sampler, context_.seed);
   sampler.start(static_cast<uint64_t>(y) * static_cast<uint64_t>(context_.width) + static_cast<uint64_t>(x), replicate,
                 index);
+  return sampler;
+}
+
+PixelSample PixelIntegrator::sample(int x, int y, uint32_t replicate, uint32_t index) const {
+  Sampler sampler = start(x, y, replicate, index);
   return sample_pixel(x, y, sampler);
 }
 
-void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const {
+bool PixelIntegrator::replay(const SampleId& id, PathRecord& record) const {
+  const FlushToZero as_in_a_render;
+  record = {};
+  record.id = id;
+  record.replicate = id.number % context_.replicates;
+  record.index = id.number / context_.replicates;
+  Sampler sampler = start(id.x, id.y, record.replicate, record.index);
+  record.sample = record_pixel(id.x, id.y, sampler, record);
+  return true;
+}
+
+void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const {
   const size_t across = tiles_along(context_.crop.width(), context_.tile_size);
   const int x0 = context_.crop.x0 + static_cast<int>(item % across) * context_.tile_size;
   const int y0 = context_.crop.y0 + static_cast<int>(item / across) * context_.tile_size;
   const int x1 = std::min(x0 + context_.tile_size, context_.crop.x1);
   const int y1 = std::min(y0 + context_.tile_size, context_.crop.y1);
   for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x)
+    for (int x = x0; x < x1; ++x) {
+      StrongestSample strongest;
       for (uint32_t replicate = 0; replicate < context_.replicates; ++replicate) {
         PixelSums sums;
         for (uint32_t index = pass.begin; index < pass.end; ++index) {
-          const PixelSample s = sample(x, y, replicate, index);
-          sums.add(s);
-          rays += s.rays;
+          PixelSample s = sample(x, y, replicate, index);
+          const uint32_t number = index * context_.replicates + replicate;
+          if (!is_sound(s)) counts.invalid.take_out({x, y, number}, s);
+          strongest.offer({static_cast<float>(sums.add(s)), number});
+          counts.rays += s.rays;
         }
         film.add(x, y, replicate, sums);
       }
+      film.offer(x, y, strongest);
+    }
 }
 
 }  // namespace etd

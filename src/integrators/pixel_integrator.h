@@ -24,17 +24,24 @@ class PixelIntegrator : public Integrator {
 
   IntegratorTraits traits() const override { return {}; }
   size_t work_items(const Pass& pass) const override;
-  void render(const Pass& pass, size_t item, Film& film, RayCounts& rays) const override;
+  void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override;
 
   // One sample of one pixel (full-image coordinates), of index `index` in replicate `replicate`: any sample of an image
   // can be drawn alone.
   PixelSample sample(int x, int y, uint32_t replicate, uint32_t index) const;
+  bool replay(const SampleId& id, PathRecord& record) const override;
 
  protected:
   // Sampler dimension 0 is the next to draw.
   virtual PixelSample sample_pixel(int x, int y, Sampler& sampler) const = 0;
+  // The same, telling about the path. Without an implementation of its own nothing is told beside the sample.
+  virtual PixelSample record_pixel(int x, int y, Sampler& sampler, PathRecord&) const {
+    return sample_pixel(x, y, sampler);
+  }
 
  private:
+  Sampler start(int x, int y, uint32_t replicate, uint32_t index) const;
+
   IntegratorContext context_;
 };
 

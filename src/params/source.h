@@ -23,6 +23,7 @@ class Sources {
  public:
   // Returns the index to put into SourceLoc::file.
   int32_t add(std::string name, std::string text);
+  int32_t count() const { return static_cast<int32_t>(sources_.size()); }
   const std::string& name(int32_t file) const { return sources_[static_cast<size_t>(file)].name; }
   const std::string& text(int32_t file) const { return sources_[static_cast<size_t>(file)].text; }
   // The line without its end; empty when it does not exist.

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <chrono>
+#include <mutex>
 #include <optional>
 
 #include "render/items.h"
@@ -18,8 +19,14 @@ using Clock = std::chrono::steady_clock;
 // Integers, so that the order in which threads add them does not matter.
 struct SharedCounts {
   std::atomic<uint64_t> camera{0}, indirect{0}, shadow{0}, items{0};
-  void add(const RayCounts& rays) {
-    camera += rays.camera, indirect += rays.indirect, shadow += rays.shadow;
+  std::mutex mutex;
+  InvalidSamples invalid;
+  void add(const ItemCounts& counts) {
+    camera += counts.rays.camera, indirect += counts.rays.indirect, shadow += counts.rays.shadow;
+    if (counts.invalid.total() > 0) {
+      const std::lock_guard lock(mutex);
+      invalid += counts.invalid;
+    }
     ++items;
   }
   RayCounts rays() const { return {camera, indirect, shadow}; }
@@ -93,6 +100,7 @@ RenderResult RenderLoop::run() {
     show_film();
   }
   result_.rays = counts_.rays();
+  result_.invalid = counts_.invalid;
   result_.seconds = seconds();
   return result_;
 }
@@ -105,9 +113,9 @@ bool RenderLoop::render_pass(const Pass& pass) {
   std::atomic<size_t> next{0};
   while (true) {
     run_items(threads_, next, items, [&](size_t item) {
-      RayCounts rays;
-      integrator_.render(pass, item, film_, rays);
-      counts_.add(rays);
+      ItemCounts counts;
+      integrator_.render(pass, item, film_, counts);
+      counts_.add(counts);
       observer_.on_progress(progress(pass, static_cast<double>(counts_.items) / static_cast<double>(items)));
       return !over(pass) && !observer_.wants_film();
     });

@@ -50,7 +50,8 @@ enum class StoppedBy { kSamples, kInterrupt, kTime, kError };
 
 struct RenderResult {
   RayCounts rays;
-  uint32_t spp = 0;  // samples that every pixel has
+  InvalidSamples invalid;  // that were left out of the film
+  uint32_t spp = 0;        // samples that every pixel has
   StoppedBy stopped_by = StoppedBy::kSamples;
   bool unequal = false;      // some pixels have more samples than others: a pass was cut off
   uint32_t error_tests = 0;  // how often the error could have stopped it

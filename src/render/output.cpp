@@ -189,9 +189,18 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
       std::string(settings.replicates >= kReplicatesForSpread ? "spread of the replicates"
                                                               : "second moments (conservative for sobol samples)"));
   add("biased", bias_text(bias, result));
+  add("invalid_samples", invalid_text(result.invalid));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));
   add("interrupted", std::string(result.stopped_by == StoppedBy::kInterrupt ? "true" : "false"));
   return data;
+}
+
+std::string invalid_text(const InvalidSamples& invalid) {
+  std::string text;
+  for (const auto& [count, kind] : {std::pair(invalid.nan, "NaN"), std::pair(invalid.infinite, "infinite"),
+                                    std::pair(invalid.negative, "negative")})
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
+  return text.empty() ? std::string("none") : text;
 }
 
 std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure) {

@@ -98,4 +98,19 @@ void apply_overrides(const std::vector<std::pair<std::string, std::string>>& set
   for (const auto& [key, text] : set) apply_one(key, text, models, diagnostics);
 }
 
+std::vector<std::string> sample_options(const RenderOverrides& o) {
+  std::vector<std::string> options;
+  const auto add = [&options](const char* name, const std::string& value) {
+    options.emplace_back(name);
+    options.push_back(value);
+  };
+  if (o.size) add("--size", fmt::format("{}x{}", o.size->first, o.size->second));
+  if (o.spp) add("--spp", std::to_string(*o.spp));
+  if (o.replicates) add("--replicates", std::to_string(*o.replicates));
+  if (o.seed) add("--seed", std::to_string(*o.seed));
+  if (o.sampler) add("--sampler", *o.sampler);
+  for (const auto& [key, text] : o.set) add("--set", fmt::format("{}={}", key, text));
+  return options;
+}
+
 }  // namespace etd

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "params/declaration.h"
+#include "render/settings.h"
 
 namespace etd {
 
@@ -19,5 +19,9 @@ struct OverridableModels {
 };
 void apply_overrides(const std::vector<std::pair<std::string, std::string>>& set, const OverridableModels& models,
                      Diagnostics& diagnostics);
+
+// The options of the command line that stand for these overrides, as far as they decide what the samples of the image
+// are: not crop, features, threads, tiles, and limits of time and error.
+std::vector<std::string> sample_options(const RenderOverrides& overrides);
 
 }  // namespace etd

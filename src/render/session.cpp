@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "integrators/make_integrator.h"
+#include "render/provenance.h"
 #include "render/threads.h"
 #include "scene/compile.h"
 #include "scene/scene.h"
@@ -35,6 +36,9 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
+  prepared.scene_hash = hash_scene(description, diagnostics.sources());
+  prepared.overrides = overrides;
+  prepared.allow_unsupported = diagnostics.allow_unsupported();
   prepared.settings = make_settings(description, overrides, diagnostics);
   const RenderSettings& settings = prepared.settings;
   check_film_memory(settings, diagnostics);
@@ -71,6 +75,7 @@ LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender
   const IntegratorTraits traits = prepared.integrator->traits();
   const bool independent = traits.memoryless && !traits.splats;
   image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));
+  add_provenance(prepared, finished, image.metadata);
   return image;
 }
 
@@ -79,6 +84,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.build_seconds = prepared.build_seconds;
   stats.render_seconds = finished.result.seconds;
   stats.rays = finished.result.rays;
+  stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
   count_pixels(finished.film, stats);

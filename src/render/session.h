@@ -22,6 +22,9 @@ class Scene;
 
 struct PreparedRender {
   std::filesystem::path scene_file;
+  std::string scene_hash;  // hash_scene()
+  RenderOverrides overrides;
+  bool allow_unsupported = false;
   RenderSettings settings;
   std::shared_ptr<const Scene> scene;  // outlives the integrator, which refers to it
   std::unique_ptr<Integrator> integrator;

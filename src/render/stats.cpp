@@ -33,6 +33,7 @@ std::string stats_json(const RenderStats& s) {
   json["seconds"] = {{"load", s.load_seconds}, {"build", s.build_seconds}, {"render", s.render_seconds}};
   json["rays"] = {{"camera", s.rays.camera}, {"indirect", s.rays.indirect}, {"shadow", s.rays.shadow}};
   json["rays_per_pixel"] = {{"mean", s.rays_per_pixel_mean}, {"max", s.rays_per_pixel_max}};
+  json["invalid"] = {{"nan", s.invalid.nan}, {"infinite", s.invalid.infinite}, {"negative", s.invalid.negative}};
   json["paths"] = s.paths;
   json["peak_bytes"] = s.peak_bytes;
   json["spp"] = s.spp;

@@ -77,16 +77,23 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
   static const ModelUse kDefault{"diffuse", {}, {}};
   std::vector<uint32_t> material_of{0};
   std::vector<const ModelUse*> uses{&kDefault};
+  scene.names.material_names.emplace_back();
   MaterialNames names;
   for (const MaterialDesc& m : description.materials) {
     const bool is_surface = m.use.model != "interface";
     material_of.push_back(is_surface ? static_cast<uint32_t>(uses.size()) : kNoId);
     if (!m.name.empty()) names[m.name] = is_surface ? std::optional(material_of.back()) : std::nullopt;
-    if (is_surface) uses.push_back(&m.use);
+    if (is_surface) {
+      uses.push_back(&m.use);
+      scene.names.material_names.push_back(m.name);
+    }
     check(Family::kMaterial, m.use, diagnostics);
     ++scene.summary.materials[m.use.model];
   }
-  for (const ModelUse* use : uses) scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
+  for (const ModelUse* use : uses) {
+    scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
+    scene.names.materials.push_back(name_item(Family::kMaterial, *use));
+  }
   std::vector<uint8_t> visited(uses.size(), 0);
   for (uint32_t i = 0; i < uses.size(); ++i)
     if (visited[i] == 0) reject_cycles(scene, i, uses, visited, diagnostics);

@@ -213,6 +213,8 @@ class GeometryCompiler {
     const Transform to_space = Transform::translate(-origin) * placed.to_space;
     SurfaceBinding binding;
     binding.material = material_of_[static_cast<size_t>(placed.shape->material + 1)];
+    binding.shape = static_cast<uint32_t>(scene_.names.shapes.size());
+    scene_.names.shapes.push_back(name_item(Family::kShape, placed.shape->use));
     if (const auto alpha = alpha_.find(placed.shape); alpha != alpha_.end()) {
       scene_.has_holes = binding.has_holes = true;
       binding.alpha = alpha->second;
@@ -298,6 +300,7 @@ class GeometryCompiler {
       if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index, invisible);
       if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index, invisible);
       if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index, invisible);
+      scene_.names.lights.resize(scene_.lights.size(), {"area light", use.loc});
       const auto alpha = alpha_.find(e.shape);
       if (alpha == alpha_.end()) continue;
       scene_.light_alphas.resize(first, {1.0f, -1});

@@ -135,6 +135,7 @@ void compile_lights(const SceneDescription& description, Scene& scene, Diagnosti
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
     scene.lights.push_back(*light);
+    scene.names.lights.push_back(name_item(Family::kLight, desc.use));
     ++scene.summary.lights[desc.use.model];
   }
 }

@@ -43,4 +43,9 @@ const ModelDecl* find_model(Family family, std::string_view name) {
   return nullptr;
 }
 
+SceneNames::Item name_item(Family family, const ModelUse& use) {
+  const ModelDecl* decl = find_model(family, use.model);
+  return {decl ? std::string_view(decl->name) : std::string_view(), use.loc};
+}
+
 }  // namespace etd

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "params/declaration.h"
+#include "scene/names.h"
 
 namespace etd {
 
@@ -13,5 +14,7 @@ namespace etd {
 std::span<const ModelDecl* const> models(Family family);
 // The model of that name, null when there is none.
 const ModelDecl* find_model(Family family, std::string_view name);
+// The name of the model of a use, for as long as the program runs, and where it stands.
+SceneNames::Item name_item(Family family, const ModelUse& use);
 
 }  // namespace etd

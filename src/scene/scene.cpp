@@ -48,7 +48,7 @@ SurfaceHit Scene::surface(const Hit& hit) const {
 Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
   const TexCoord at = point_coord(surface.point);
   const Material& material = surface.material->resolve(at, textures, materials, rng);
-  return {material.closure(at, textures), material.frame(surface.point, at, textures)};
+  return {material.closure(at, textures), material.frame(surface.point, at, textures), &material};
 }
 
 size_t Scene::geometry_bytes() const {

@@ -14,12 +14,14 @@
 #include "light_sampling/power_light_sampler.h"
 #include "lights/light_data.h"
 #include "materials/material.h"
+#include "scene/names.h"
 
 namespace etd {
 
 // What a mesh, patch mesh or quadric is made of.
 struct SurfaceBinding {
   uint32_t material = 0;
+  uint32_t shape = 0;  // index into SceneNames::shapes
   // The quadric's light, or where the lights of the mesh's triangles or patches start in `face_lights`; kNoId: does not
   // emit.
   uint32_t first_light = kNoId;
@@ -38,6 +40,7 @@ struct SurfaceHit {
 struct Shading {
   Bsdf closure;
   Frame frame;
+  const Material* material = nullptr;  // of a mix the one that was chosen
 };
 
 // What `etendue info` tells beside the sizes of the arrays.
@@ -69,6 +72,11 @@ class Scene {
   SurfaceHit surface(const Hit& hit) const;
   // How the surface scatters there. `rng` decides between mixed materials.
   Shading shade(const SurfaceHit& surface, HashStream& rng) const;
+  // What the surface that was hit is made of.
+  const SurfaceBinding& binding_of(const Hit& hit) const {
+    if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
+    return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
+  }
   size_t geometry_bytes() const;
 
   Geometry geometry;
@@ -89,14 +97,11 @@ class Scene {
   std::unique_ptr<Accelerator> accelerator;
   Vec3d origin;  // world position that was moved to (0, 0, 0)
   SceneSummary summary;
+  SceneNames names;
 
  private:
   // Where textures are looked up at a point, without a footprint.
   static TexCoord point_coord(const SurfacePoint& s) { return {s.uv, s.p, s.ng}; }
-  const SurfaceBinding& binding_of(const Hit& hit) const {
-    if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
-    return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
-  }
   bool is_hole(const Ray& ray, const Hit& hit) const;
   bool find_solid(Ray ray, Hit& hit) const;
 };

@@ -47,6 +47,7 @@ struct alignas(16) Spectrum {
 };
 
 ETD_FN float max_value(const Spectrum& s) { return std::max(s.v[0], std::max(s.v[1], s.v[2])); }
+ETD_FN float min_value(const Spectrum& s) { return std::min(s.v[0], std::min(s.v[1], s.v[2])); }
 ETD_FN float mean_value(const Spectrum& s) { return (s.v[0] + s.v[1] + s.v[2]) * (1.0f / 3.0f); }
 // Lane by lane; NaN gives lo.
 ETD_FN Spectrum max(Spectrum s, float lo) {

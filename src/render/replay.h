@@ -1,0 +1,32 @@
+// What one replayed sample looks like: as a table for people, in one line of a list, and as JSON for programs.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "integrators/path_record.h"
+#include "params/source.h"
+
+namespace etd {
+
+// What a path refers to: its scene, and the files that the scene was read from.
+struct ReplayedScene {
+  const Scene& scene;
+  const Sources& sources;
+};
+
+// R, G, B and Y that the film received: black of an invalid sample.
+std::array<double, 4> received_by_film(const PathRecord& path);
+
+// Every vertex with what was computed there, every contribution, their sum, and what the film received. Radiance is
+// written so that it reads back as the same bits.
+std::string replay_text(const PathRecord& path, const ReplayedScene& in);
+
+// The surfaces up to the light that contributes most, and how it was found: "floor > glass S > glass S > area light".
+std::string replay_line(const PathRecord& path, const ReplayedScene& in);
+
+// The same as replay_text() as one JSON object. Numbers that JSON does not have are the texts "NaN", "Infinity" and
+// "-Infinity".
+std::string replay_json(const PathRecord& path, const ReplayedScene& in);
+
+}  // namespace etd
