@@ -216,7 +216,8 @@ TEST(Replay, NamesWhatThePathMeets) {
     EXPECT_NE(text.find("sphere, ball.pbrt:17"), std::string::npos) << text;
     red += text.find("red (diffuse), ball.pbrt:11") != std::string::npos;
     blue += text.find("blue (diffuse), ball.pbrt:12") != std::string::npos;
-    lamp += text.find("area light, ball.pbrt:7") != std::string::npos && line.find("area light (light") != std::string::npos;
+    lamp += text.find("area light, ball.pbrt:7") != std::string::npos &&
+            line.find("area light (light") != std::string::npos;
     sky += text.find("infinite, ball.pbrt:5") != std::string::npos && line.find("> infinite") != std::string::npos;
     EXPECT_EQ(line.find("mix"), std::string::npos) << line;
     EXPECT_NE(text.find("end         it met no surface"), std::string::npos) << text;

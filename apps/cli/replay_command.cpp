@@ -45,8 +45,7 @@ struct Task {
 
 // The scene of an image where the image says it is, or else beside the image.
 std::string find_scene(const Provenance& image, const std::string& image_path, std::string& error) {
-  const std::filesystem::path beside =
-      std::filesystem::absolute(image_path).parent_path() / image.scene.filename();
+  const std::filesystem::path beside = std::filesystem::absolute(image_path).parent_path() / image.scene.filename();
   for (const std::filesystem::path& place : {image.scene, beside})
     if (std::filesystem::exists(place)) {
       const std::string whole = place.string(), from_here = std::filesystem::proximate(place).string();
@@ -84,12 +83,13 @@ Task make_task(const Arguments& args) {
   }
   task.image = read_provenance(*read.image);
   if (!task.image)
-    task.error = fmt::format("{}: its metadata do not say how etendue rendered it, so its samples cannot be drawn again",
-                             args.scene);
+    task.error = fmt::format(
+        "{}: its metadata do not say how etendue rendered it, so its samples cannot be drawn again", args.scene);
   else if (!sample_options(args.overrides).empty() || args.allow_unsupported)
     task.error = "an image knows the options it was rendered with: others would draw other samples";
   if (!task.error.empty()) return task;
-  const std::string scene = args.moved_scene.empty() ? find_scene(*task.image, args.scene, task.error) : args.moved_scene;
+  const std::string scene =
+      args.moved_scene.empty() ? find_scene(*task.image, args.scene, task.error) : args.moved_scene;
   if (!task.error.empty()) return task;
   try {
     task.scene = parse_options(*task.image, scene);
@@ -153,9 +153,10 @@ int replay_fireflies(const Arguments& args, const Provenance& image, const Prepa
     fmt::print("{:>3}  {:>11}  {:>8}  {:>10}  {:>8}  path\n{}\n{}", "", "pixel", "sample", "luminance", "of pixel",
                fmt::join(rows, "\n"), details);
   if (changed > 0)
-    warn(fmt::format("{} of {} samples have other values than in the image: the scene, a file that it uses, or the "
-                     "program has changed",
-                     changed, count));
+    warn(
+        fmt::format("{} of {} samples have other values than in the image: the scene, a file that it uses, or the "
+                    "program has changed",
+                    changed, count));
   return kOk;
 }
 

@@ -34,7 +34,10 @@ const char* end_text(PathEnd end) {
 }
 
 std::string lobe_text(Lobe lobe) {
-  return fmt::format("{} {}", (lobe & kDelta) ? "delta" : (lobe & kGlossy) ? "glossy" : "diffuse",
+  return fmt::format("{} {}",
+                     (lobe & kDelta)    ? "delta"
+                     : (lobe & kGlossy) ? "glossy"
+                                        : "diffuse",
                      (lobe & kTransmission) ? "transmission" : "reflection");
 }
 
@@ -42,7 +45,9 @@ PathItem shape_item(const ReplayedScene& in, const Hit& hit) {
   return item_at(in, in.scene.names.shapes, in.scene.binding_of(hit).shape, "surface");
 }
 
-PathItem light_item(const ReplayedScene& in, uint32_t light) { return item_at(in, in.scene.names.lights, light, "light"); }
+PathItem light_item(const ReplayedScene& in, uint32_t light) {
+  return item_at(in, in.scene.names.lights, light, "light");
+}
 
 PathItem material_item(const ReplayedScene& in, const Material* material) {
   if (!material) return {"material", {}, {}};

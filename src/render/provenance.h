@@ -19,9 +19,9 @@ std::string hash_scene(const SceneDescription& description, const Sources& sourc
 // The command that shows this sample of an image step by step: the scene as it was named, and the options that matter.
 std::string replay_command(const PreparedRender& prepared, const RenderResult& result, const SampleId& id);
 
-// Adds to the metadata of an image "etendue:scene_path" (absolute), ":scene_hash", ":options" (a JSON list), ":strongest"
-// (the kStrongestKept strongest samples, a JSON list of [x, y, sample, luminance, share of the pixel's mean]), and, where
-// samples were invalid, ":invalid_replay", the command that shows the first of them.
+// Adds to the metadata of an image "etendue:scene_path" (absolute), ":scene_hash", ":options" (a JSON list),
+// ":strongest" (the kStrongestKept strongest samples, a JSON list of [x, y, sample, luminance, share of the pixel's
+// mean]), and, where samples were invalid, ":invalid_replay", the command that shows the first of them.
 inline constexpr size_t kStrongestKept = 64;
 void add_provenance(const PreparedRender& prepared, const FinishedRender& finished, Metadata& metadata);
 

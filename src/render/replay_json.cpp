@@ -83,8 +83,7 @@ Json json(const PathVertex& v, const ReplayedScene& in) {
   for (const EmissionRecord& e : v.emission) j["emission"].push_back(json(e, v.depth, in));
   if (v.light) j["light"] = json(*v.light, v.depth + 1, in);
   if (v.scatter) j["scattering"] = json(*v.scatter);
-  if (v.roulette)
-    j["roulette"] = {{"survival", number(v.roulette->survival)}, {"survived", v.roulette->survived}};
+  if (v.roulette) j["roulette"] = {{"survival", number(v.roulette->survival)}, {"survived", v.roulette->survived}};
   return j;
 }
 

@@ -54,7 +54,10 @@ class Table {
     } else {
       const SurfacePoint& p = v.surface.point;
       line("\nvertex {}    {}  [{} {}]", v.depth, text(shape_item(in_, v.hit)),
-           v.hit.on_quadric() ? "quadric" : v.hit.on_patch() ? "patch" : "triangle", v.hit.primitive);
+           v.hit.on_quadric() ? "quadric"
+           : v.hit.on_patch() ? "patch"
+                              : "triangle",
+           v.hit.primitive);
       line("  material    {}", text(material_item(in_, v.material)));
       line("  p           {}  uv ({:.6g}, {:.6g})", triple(file_position(in_, p.p)), p.uv.x, p.uv.y);
       line("  ng          {}  ns {}", triple(p.ng), triple(v.ns));
