@@ -184,8 +184,8 @@ TEST(Film, HalfFloatsAreRoundedAndStayFinite) {
             std::filesystem::file_size(folder.path() / "full.exr"));
 }
 
-// A camera that looks along world -x at the plane x = -3 (distance 5 from x = 2), half of whose picture misses it: means
-// over samples where misses count 0, so positions divided by coverage lie on the plane.
+// A camera that looks along world -x at the plane x = -3 (distance 5 from x = 2), half of whose picture misses it:
+// means over samples where misses count 0, so positions divided by coverage lie on the plane.
 TEST(Film, GBufferHasPositionsInItsSpace) {
   for (const bool world : {false, true}) {
     Diagnostics diagnostics;

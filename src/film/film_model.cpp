@@ -33,43 +33,46 @@ PixelBounds scale_outward(const std::vector<int32_t>& b, double x, double y) {
 const ModelDecl& rgb_film_decl() {
   static const ModelDecl decl = with_params(
       {.family = Family::kFilm,
-      .name = "rgb",
-      .doc = "An image of linear Rec.709 colour, with layers for the components of light, features and errors.",
-      .params = {
-          {.name = "xresolution",
-           .type = ParamType::kInteger,
-           .default_value = 1280,
-           .min = 1,
-           .max = kMaxImageSide,
-           .unit = "pixels",
-           .doc = "Width of the image."},
-          {.name = "yresolution",
-           .type = ParamType::kInteger,
-           .default_value = 720,
-           .min = 1,
-           .max = kMaxImageSide,
-           .unit = "pixels",
-           .doc = "Height of the image."},
-          {.name = "cropwindow",
-           .type = ParamType::kFloat,
-           .array = true,
-           .min = 0,
-           .max = 1,
-           .doc = "The part to render, x0 x1 y0 y1, as fractions of the image; goes before pixelbounds."},
-          {.name = "pixelbounds",
-           .type = ParamType::kInteger,
-           .array = true,
-           .unit = "pixels",
-           .doc = "The part to render, x0 x1 y0 y1; x1 and y1 are outside."},
-          {.name = "filename",
-           .type = ParamType::kString,
-           .default_value = std::string("pbrt.exr"),
-           .doc = "Name of the image that is written to the current folder when the command line names none."},
-          {.name = "savefp16",
-           .type = ParamType::kBool,
-           .default_value = false,
-           .doc = "EXR files hold 16-bit floats: half the size, three digits, 65504 at most. (pbrt's default is true.)"},
-      }}, {Sensor::params()});
+       .name = "rgb",
+       .doc = "An image of linear Rec.709 colour, with layers for the components of light, features and errors.",
+       .params =
+           {
+               {.name = "xresolution",
+                .type = ParamType::kInteger,
+                .default_value = 1280,
+                .min = 1,
+                .max = kMaxImageSide,
+                .unit = "pixels",
+                .doc = "Width of the image."},
+               {.name = "yresolution",
+                .type = ParamType::kInteger,
+                .default_value = 720,
+                .min = 1,
+                .max = kMaxImageSide,
+                .unit = "pixels",
+                .doc = "Height of the image."},
+               {.name = "cropwindow",
+                .type = ParamType::kFloat,
+                .array = true,
+                .min = 0,
+                .max = 1,
+                .doc = "The part to render, x0 x1 y0 y1, as fractions of the image; goes before pixelbounds."},
+               {.name = "pixelbounds",
+                .type = ParamType::kInteger,
+                .array = true,
+                .unit = "pixels",
+                .doc = "The part to render, x0 x1 y0 y1; x1 and y1 are outside."},
+               {.name = "filename",
+                .type = ParamType::kString,
+                .default_value = std::string("pbrt.exr"),
+                .doc = "Name of the image that is written to the current folder when the command line names none."},
+               {.name = "savefp16",
+                .type = ParamType::kBool,
+                .default_value = false,
+                .doc = "EXR files hold 16-bit floats: half the size, three digits, 65504 at most. (pbrt's default is "
+                       "true.)"},
+           }},
+      {Sensor::params()});
   return decl;
 }
 
@@ -111,7 +114,8 @@ FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int
   const Param* bounds = reader.given("pixelbounds");
   for (const Param* p : {window, bounds})
     if (p && p->numbers.size() + p->integers.size() != 4) {
-      diagnostics.error(p->loc, fmt::format("parameter \"{}\" of film \"{}\" takes 4 numbers", p->name, reader.decl().name),
+      diagnostics.error(p->loc,
+                        fmt::format("parameter \"{}\" of film \"{}\" takes 4 numbers", p->name, reader.decl().name),
                         "they are x0 x1 y0 y1");
       return film;
     }

@@ -8,28 +8,29 @@
 namespace etd {
 
 std::vector<ParamDecl> Sensor::params() {
-  return {{.name = "sensor",
-           .type = ParamType::kString,
-           .default_value = std::string("cie1931"),
-           .doc = "Whose eyes: cie1931 is the standard observer. The measured cameras of pbrt need spectra, which there "
-                  "are none of: they are unsupported."},
-          {.name = "iso", .default_value = 100.0, .min = 0, .doc = "Sensitivity: radiance is multiplied by iso / 100."},
-          {.name = "exposuretime",
-           .min = 0,
-           .unit = "s",
-           .doc = "Exposure time, by which radiance is multiplied; by default the time that the camera's shutter is open, "
-                  "1 if it is an instant. (Of Etendue: pbrt knows the shutter alone.)"},
-          {.name = "whitebalance",
-           .default_value = 0.0,
-           .min = 0,
-           .max = kHottestWhite,
-           .unit = "K",
-           .doc = "Colour temperature, from 1500 on, of the light that shall look white; 0: no white balance."},
-          {.name = "maxcomponentvalue",
-           .min = 0,
-           .above_min = true,
-           .doc = "Samples whose largest component is above are scaled down to it: less noise, but a biased image, which "
-                  "is labelled so."}};
+  return {
+      {.name = "sensor",
+       .type = ParamType::kString,
+       .default_value = std::string("cie1931"),
+       .doc = "Whose eyes: cie1931 is the standard observer. The measured cameras of pbrt need spectra, which there "
+              "are none of: they are unsupported."},
+      {.name = "iso", .default_value = 100.0, .min = 0, .doc = "Sensitivity: radiance is multiplied by iso / 100."},
+      {.name = "exposuretime",
+       .min = 0,
+       .unit = "s",
+       .doc = "Exposure time, by which radiance is multiplied; by default the time that the camera's shutter is open, "
+              "1 if it is an instant. (Of Etendue: pbrt knows the shutter alone.)"},
+      {.name = "whitebalance",
+       .default_value = 0.0,
+       .min = 0,
+       .max = kHottestWhite,
+       .unit = "K",
+       .doc = "Colour temperature, from 1500 on, of the light that shall look white; 0: no white balance."},
+      {.name = "maxcomponentvalue",
+       .min = 0,
+       .above_min = true,
+       .doc = "Samples whose largest component is above are scaled down to it: less noise, but a biased image, which "
+              "is labelled so."}};
 }
 
 Sensor Sensor::create(const ParamReader& p, double shutter) {
@@ -42,9 +43,10 @@ Sensor Sensor::create(const ParamReader& p, double shutter) {
   if (const Param* limit = p.given("maxcomponentvalue")) s.max_component = limit->numbers[0];
   s.white_balance = p.number("whitebalance");
   if (s.white_balance > 0 && s.white_balance < kCoolestWhite) {
-    p.diagnostics().error(p.given("whitebalance")->value_loc,
-                          fmt::format("\"whitebalance\" is {} K, which no light has that can look white", s.white_balance),
-                          fmt::format("valid: 0, or {} to {}", kCoolestWhite, kHottestWhite));
+    p.diagnostics().error(
+        p.given("whitebalance")->value_loc,
+        fmt::format("\"whitebalance\" is {} K, which no light has that can look white", s.white_balance),
+        fmt::format("valid: 0, or {} to {}", kCoolestWhite, kHottestWhite));
     s.white_balance = 0;
   }
   s.changes_colours_ = s.white_balance > 0;

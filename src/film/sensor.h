@@ -1,5 +1,5 @@
-// What turns radiance into the numbers of an image, sample by sample: exposure, white balance, and a limit for those who
-// ask for one. All but the limit is linear, so means, squares and errors are those of the exposed radiance.
+// What turns radiance into the numbers of an image, sample by sample: exposure, white balance, and a limit for those
+// who ask for one. All but the limit is linear, so means, squares and errors are those of the exposed radiance.
 #pragma once
 
 #include <array>

@@ -36,7 +36,8 @@ Vec2 Filter::radius() const {
 }
 
 std::span<const ModelDecl* const> filter_models() {
-  static const ModelDecl* const all[] = {&BoxFilter::decl(), &GaussianFilter::decl(), &MitchellFilter::decl(), &SincFilter::decl(), &TriangleFilter::decl()};
+  static const ModelDecl* const all[] = {&BoxFilter::decl(), &GaussianFilter::decl(), &MitchellFilter::decl(),
+                                         &SincFilter::decl(), &TriangleFilter::decl()};
   return all;
 }
 

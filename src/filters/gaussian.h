@@ -5,8 +5,8 @@
 
 namespace etd {
 
-// exp(-d^2 / 2 sigma^2) - exp(-r^2 / 2 sigma^2) on [-r, r], divided by 1 - exp(-r^2 / 2 sigma^2), so that it is 1 in the
-// middle whatever sigma is: for a wide one it becomes the parabola 1 - d^2 / r^2.
+// exp(-d^2 / 2 sigma^2) - exp(-r^2 / 2 sigma^2) on [-r, r], divided by 1 - exp(-r^2 / 2 sigma^2), so that it is 1 in
+// the middle whatever sigma is: for a wide one it becomes the parabola 1 - d^2 / r^2.
 struct GaussianShape {
   float r = 1, sigma = 1;
 
@@ -46,8 +46,7 @@ struct GaussianFilter : SeparableFilter<GaussianShape> {
   }
   static GaussianFilter create(const ParamReader& p) {
     const auto axis = [&](const char* radius) {
-      return FilterAxis(
-          GaussianShape{static_cast<float>(p.number(radius)), static_cast<float>(p.number("sigma"))});
+      return FilterAxis(GaussianShape{static_cast<float>(p.number(radius)), static_cast<float>(p.number("sigma"))});
     };
     return {{axis("xradius"), axis("yradius")}};
   }

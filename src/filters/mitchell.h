@@ -23,7 +23,8 @@ struct MitchellFilter : SeparableFilter<MitchellShape> {
     static const ModelDecl d{
         Family::kFilter,
         "mitchell",
-        "Two cubic polynomials: sharp, with small negative lobes. Pixels at an edge can leave the range of their sides.",
+        "Two cubic polynomials: sharp, with small negative lobes. Pixels at an edge can leave the range of their "
+        "sides.",
         {{.name = "xradius",
           .default_value = 2.0,
           .min = kMinFilterSize,

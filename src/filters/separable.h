@@ -1,6 +1,6 @@
-// Filters that are a product of the same shape along x and y: each axis is sampled in proportion to the shape's absolute
-// value through a piecewise-linear table. The weight makes up for what the table misses, and carries the sign of negative
-// lobes (Ernst, Stamminger and Greiner 2006, "Filter Importance Sampling"), so the mean is exact.
+// Filters that are a product of the same shape along x and y: each axis is sampled in proportion to the shape's
+// absolute value through a piecewise-linear table. The weight makes up for what the table misses, and carries the sign
+// of negative lobes (Ernst, Stamminger and Greiner 2006, "Filter Importance Sampling"), so the mean is exact.
 #pragma once
 
 #include <array>

@@ -41,7 +41,8 @@ struct SincFilter : SeparableFilter<SincShape> {
           .min = 0.1,
           .max = kMaxFilterSize,
           .unit = "pixels",
-          .doc = "Where the window sinc(x / tau) becomes zero for the first time; it is not cut there, but at the radius."}}};
+          .doc = "Where the window sinc(x / tau) becomes zero for the first time; it is not cut there, but at the "
+                 "radius."}}};
     return d;
   }
   static SincFilter create(const ParamReader& p) {

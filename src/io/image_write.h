@@ -33,8 +33,8 @@ struct LayeredImage {
   const MetadataValue* find_metadata(std::string_view name) const;
 };
 
-// Writes an EXR, ZIP compressed. 32-bit floats arrive bit for bit, in any order of the channels; 16-bit ones are rounded,
-// and finite values stay so. Returns what went wrong, or an empty string.
+// Writes an EXR, ZIP compressed. 32-bit floats arrive bit for bit, in any order of the channels; 16-bit ones are
+// rounded, and finite values stay so. Returns what went wrong, or an empty string.
 std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
 
 // Every channel of an EXR's first part as floats. Of the metadata those that are a string, int, float or double, which

@@ -16,8 +16,8 @@ namespace etd {
 using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 // The film as float layers: R, G, B; direct.*, indirect.*, emission.* (radiance); with features albedo.R..B,
-// normal.X..Z, depth.Z (metres), coverage.A, and of a gbuffer position.X..Z; stderr.R, .G, .B, .Y. The picture is (emission + direct) + indirect of the
-// float layers, so that this sum holds bit for bit in the file.
+// normal.X..Z, depth.Z (metres), coverage.A, and of a gbuffer position.X..Z; stderr.R, .G, .B, .Y. The picture is
+// (emission + direct) + indirect of the float layers, so that this sum holds bit for bit in the file.
 LayeredImage make_layers(const Film& film);
 
 // Adds layers replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is the picture.
@@ -28,12 +28,9 @@ LayeredImage make_picture(const Film& film);
 
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
 // scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
-// is biased ("nothing" when nothing is), invalid samples ("none" when there are none) and what stopped it.
+// is biased ("nothing" when nothing is) and what stopped it.
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result);
-
-// "2 NaN, 1 infinite", or "none".
-std::string invalid_text(const InvalidSamples& invalid);
 
 // Writes one file in the format of its ending: all layers, or the picture alone (`exposure` in stops, for formats of
 // limited range). Returns what went wrong, or an empty string.

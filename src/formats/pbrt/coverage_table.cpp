@@ -30,7 +30,12 @@ std::span<const UnsupportedModel> unsupported_models() {
         {"xresolution", "xresolution"},
         {"yresolution", "yresolution"},
         {"cropwindow", "cropwindow"},
-        {"pixelbounds", "pixelbounds"}}},
+        {"pixelbounds", "pixelbounds"},
+        {"savefp16", "savefp16"},
+        {"iso", "iso"},
+        {"exposuretime", "exposuretime"},
+        {"whitebalance", "whitebalance"},
+        {"maxcomponentvalue", "maxcomponentvalue"}}},
   };
   return table;
 }
