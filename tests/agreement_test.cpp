@@ -1,13 +1,16 @@
 // Estimators of one image must agree: naive = next_event = mis, roulette early, late or never, independent numbers or
-// Sobol's. Compared are the means of blocks of 8 x 8 pixels and of the whole image, by Welch tests that together raise
-// a false alarm with a probability of at most 1e-4; what differs is rendered once more. That they would find an error
-// of 1 % in the image is tested too.
+// Sobol's, each heuristic, each choice of lights. Compared are the means of blocks of 8 x 8 pixels and of the whole
+// image, by Welch tests that together raise a false alarm with a probability of at most 1e-4; what differs is rendered
+// once more. That they would find an error of 1 % in the image is tested too. The results are a table in
+// docs/verification.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <map>
 
-#include "compare_films.h"
+#include "document_block.h"
+#include "expect_agreement.h"
 
 namespace etd {
 namespace {
@@ -26,23 +29,37 @@ struct Variant {
 struct Scene {
   std::string name;
   uint32_t spp_naive, spp_next_event, spp_mis;
+  uint32_t spp_heuristics = 0, spp_uniform = 0;  // of the other heuristics and of lights all alike; 0: not compared
 };
-const Scene kScenes[] = {{"conductor_box", 1024, 512, 256}, {"textured_room", 1024, 256, 256},
-                         {"sky_instances", 512, 512, 128},  {"glass_caustic", 1024, 512, 512},
-                         {"lamps", 2048, 1024, 1024},       {"window_room", 2048, 384, 384}};
+const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},
+                         {"textured_room", 1024, 256, 256, 0, 256},
+                         {"sky_instances", 512, 512, 128, 256, 256},
+                         {"glass_caustic", 1024, 512, 512, 0, 0},
+                         {"lamps", 2048, 1024, 1024, 0, 1024},
+                         {"window_room", 2048, 384, 384, 0, 0}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
-  return {{"mis", {}, "sobol", s.spp_mis},
-          {"naive", {{"integrator.mode", "naive"}}, "sobol", s.spp_naive},
-          {"next_event", {{"integrator.mode", "next_event"}}, "sobol", s.spp_next_event},
-          {"independent", {}, "independent", s.spp_mis},
-          {"roulette from 1", {{"integrator.roulettedepth", "1"}}, "sobol", s.spp_mis},
-          {"no roulette", {{"integrator.roulettedepth", "1000"}}, "sobol", s.spp_mis}};
+  std::vector<Variant> all{{"mis", {}, "sobol", s.spp_mis},
+                           {"naive", {{"integrator.mode", "naive"}}, "sobol", s.spp_naive},
+                           {"next_event", {{"integrator.mode", "next_event"}}, "sobol", s.spp_next_event},
+                           {"independent", {}, "independent", s.spp_mis},
+                           {"roulette from 1", {{"integrator.roulettedepth", "1"}}, "sobol", s.spp_mis},
+                           {"no roulette", {{"integrator.roulettedepth", "1000"}}, "sobol", s.spp_mis}};
+  if (s.spp_heuristics > 0)
+    for (const std::string name : {"balance", "maximum", "uniform"})
+      all.push_back({name + " heuristic", {{"integrator.misheuristic", name}}, "sobol", s.spp_heuristics});
+  if (s.spp_uniform > 0)
+    all.push_back({"lights all alike", {{"integrator.lightsampler", "uniform"}}, "sobol", s.spp_uniform});
+  return all;
 }
 
-// The level of one test: scenes, pairs of films, regions.
-double level() { return bonferroni_level(kFamilyLevel, std::size(kScenes) * 5 * film_test_count(48, 48)); }
+// The level of one test: pairs of films, regions.
+double level() {
+  size_t pairs = 0;
+  for (const Scene& s : kScenes) pairs += variants(s).size() - 1;
+  return bonferroni_level(kFamilyLevel, pairs * film_test_count(48, 48));
+}
 
 Film render_variant(const Scene& scene, const Variant& variant, uint64_t seed, uint32_t more) {
   RenderOverrides o;
@@ -56,21 +73,39 @@ Film render_variant(const Scene& scene, const Variant& variant, uint64_t seed, u
   return render_scene(source_path("tests/scenes/agree/" + scene.name + ".pbrt"), o);
 }
 
+// Rows of the table, by scene and variant.
+std::map<std::string, std::string>& results() {
+  static std::map<std::string, std::string> rows;
+  return rows;
+}
+std::string row_name(const Scene& s, const Variant& v) { return fmt::format("| {} | {} |", s.name, v.name); }
+
+std::string row(const Scene& scene, const Variant& v, const std::vector<FilmTest>& tests) {
+  const FilmTest& g = tests[1];
+  double smallest = 1;
+  for (const FilmTest& t : tests) smallest = std::min(smallest, t.result.p_value);
+  const double error = std::sqrt(g.a.variance_of_mean() + g.b.variance_of_mean());
+  return fmt::format("{} {} | {:.5f} | {:+.3f} ± {:.3f} % | {:.2g} |", row_name(scene, v), v.spp, g.b.mean(),
+                     100 * (g.b.mean() / g.a.mean() - 1), 100 * error / g.a.mean(),
+                     sidak_combined(smallest, tests.size()));
+}
+
 void expect_all_agree(const Scene& scene, uint32_t more = 1) {
   const std::vector<Variant> all = variants(scene);
-  ASSERT_EQ(all.size(), 6u);
   const Film reference = render_variant(scene, all[0], 100, more);
   for (size_t i = 1; i < all.size(); ++i) {
     const std::string name = fmt::format("{}, {} against {}", scene.name, all[i].name, all[0].name);
     const Film film = render_variant(scene, all[i], 100 + i, more);
+    std::vector<FilmTest> tests;
     if (films_agree(reference, film, level())) {
-      expect_agreement(name, reference, film, level());  // that it would have seen an error
-      continue;
+      tests = expect_agreement(name, reference, film, level());  // that it would have seen an error
+    } else {
+      // Once more with fresh seeds: an error stays, and shows the better for four times the samples.
+      std::cout << name << ": differ, once more with four times the samples\n";
+      tests = expect_agreement(name, render_variant(scene, all[0], 1100, 4 * more),
+                               render_variant(scene, all[i], 1100 + i, 4 * more), level());
     }
-    // Once more with fresh seeds: an error stays, and shows the better for four times the samples.
-    std::cout << name << ": differ, once more with four times the samples\n";
-    expect_agreement(name, render_variant(scene, all[0], 1100, 4 * more),
-                     render_variant(scene, all[i], 1100 + i, 4 * more), level());
+    if (more == 1) results()[row_name(scene, all[i])] = row(scene, all[i], tests);
   }
 }
 
@@ -97,6 +132,41 @@ TEST(StatisticalAgreement, FindsAPlantedErrorOfOnePercent) {
     for (const FilmTest& t : compare_films(a, b, factor)) smallest = std::min(smallest, t.result.p_value);
     EXPECT_LT(smallest, level()) << "an image scaled by " << factor << " was not told from the other";
   }
+}
+
+// Numbers differ between machines and compilers, so that what is compared is which rows there are. Runs last, after the
+// tests whose results it writes.
+TEST(StatisticalAgreement, TheTableListsEveryComparison) {
+  std::string table =
+                  "| scene | estimator | spp | mean of G | difference from `mis` | smallest p |\n"
+                  "|---|---|---|---|---|---|\n",
+              expected;
+  bool complete = true;
+  for (const Scene& scene : kScenes) {
+    const std::vector<Variant> all = variants(scene);
+    for (size_t i = 1; i < all.size(); ++i) {
+      const auto found = results().find(row_name(scene, all[i]));
+      complete &= found != results().end();
+      table += (found != results().end() ? found->second : "") + "\n";
+      expected += row_name(scene, all[i]) + "\n";
+    }
+  }
+  if (updates_expected()) {
+    ASSERT_TRUE(complete) << "the table is written from a run of the whole suite";
+    write_document_block("verification.md", "agreement", table);
+  }
+  const auto committed = read_document_block("verification.md", "agreement");
+  ASSERT_TRUE(committed);
+  std::string rows;
+  size_t line = 0;
+  for (size_t begin = 0, end; (end = committed->find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string text = committed->substr(begin, end - begin);
+    if (++line <= 2) continue;
+    size_t cut = 0;
+    for (int bars = 0; cut < text.size() && bars < 3; ++cut) bars += text[cut] == '|';
+    rows += text.substr(0, cut) + "\n";
+  }
+  EXPECT_EQ(rows, expected) << "run StatisticalAgreement with ETENDUE_UPDATE_EXPECTED=1 and commit the page";
 }
 
 }  // namespace

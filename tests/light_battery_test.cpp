@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "light_sampling/power_light_sampler.h"
 #include "slow_build.h"
 #include "verify/battery_light.h"
 
@@ -99,30 +98,6 @@ TEST(LightBatteryFaults, PowerOfOneSideOnly) {
   LightModel m = example("diffuse(sphere, two-sided)");
   m.power = m.power * 0.5f;
   EXPECT_EQ(failures(m), (std::set<std::string>{"power = flux"}));
-}
-
-// Walks evenly through the numbers: every light is chosen as often as its probability says.
-TEST(PowerLightSampler, ChoosesByItsProbabilities) {
-  std::vector<Light> lights;
-  for (const LightExample& e : light_examples()) lights.push_back(e.light);
-  const PowerLightSampler sampler(lights);
-  constexpr int kSteps = 1 << 20;
-  std::vector<double> share(lights.size(), 0.0);
-  for (int i = 0; i < kSteps; ++i) {
-    const auto choice = sampler.sample((static_cast<float>(i) + 0.5f) / kSteps);
-    ASSERT_TRUE(choice);
-    ASSERT_EQ(choice->probability, sampler.probability(choice->light));
-    share[choice->light] += 1.0 / kSteps;
-  }
-  double finite_power = 0, infinite_power = 0;
-  for (const Light& l : lights) (l.is_infinite() ? infinite_power : finite_power) += luminance(l.power());
-  for (uint32_t i = 0; i < lights.size(); ++i) {
-    EXPECT_NEAR(share[i], sampler.probability(i), 1e-5) << light_examples()[i].name;
-    const double of_its_kind = lights[i].is_infinite() ? PowerLightSampler::kInfiniteShare / infinite_power
-                                                       : (1.0 - PowerLightSampler::kInfiniteShare) / finite_power;
-    const double expected = of_its_kind * luminance(lights[i].power());
-    EXPECT_NEAR(sampler.probability(i), expected, 1e-5) << light_examples()[i].name;
-  }
 }
 
 }  // namespace

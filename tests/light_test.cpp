@@ -7,7 +7,7 @@
 #include "core/distribution.h"
 #include "core/hash.h"
 #include "core/warp.h"
-#include "light_sampling/power_light_sampler.h"
+#include "light_sampling/light_sampler.h"
 #include "lights/constant_infinite.h"
 #include "lights/diffuse_area.h"
 
@@ -214,14 +214,14 @@ TEST(AliasTable, WeightZeroIsNeverSampled) {
   EXPECT_EQ(dark.probability(1), 0.0f);
 }
 
-TEST(PowerLightSampler, SharesOfFiniteAndInfiniteLights) {
+TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
   const Mesh m = triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   const auto area = [&](float l) {
     return Light(DiffuseAreaLight<TriangleSurface>(uniform(l, false), TriangleSurface(m, 0)));
   };
   const auto infinite = [](float l) { return Light(ConstantInfiniteLight{Spectrum(l)}); };
   const auto probabilities = [](const std::vector<Light>& lights) {
-    const PowerLightSampler sampler(lights);
+    const LightSampler sampler(lights);
     std::vector<float> p;
     for (uint32_t i = 0; i < lights.size(); ++i) p.push_back(sampler.probability(i));
     for (int i = 0; i < 1000; ++i) {
@@ -240,9 +240,14 @@ TEST(PowerLightSampler, SharesOfFiniteAndInfiniteLights) {
   EXPECT_EQ(mixed[4], 0.0f);
   EXPECT_EQ(probabilities({area(1), infinite(0)}), (std::vector<float>{1, 0}));
   EXPECT_EQ(probabilities({infinite(1), area(0)}), (std::vector<float>{1, 0}));
-  EXPECT_FALSE(PowerLightSampler(std::vector<Light>{area(0), infinite(0)}).sample(0.5));
-  EXPECT_FALSE(PowerLightSampler(std::vector<Light>{}).sample(0));
-  EXPECT_FALSE(PowerLightSampler().sample(0));
+  const LightSampler alike(std::vector<Light>{area(1), infinite(1e6f), area(0), area(3)}, LightChoice::kUniform);
+  EXPECT_FLOAT_EQ(alike.probability(0), 1 / 3.0f);
+  EXPECT_FLOAT_EQ(alike.probability(1), 1 / 3.0f);
+  EXPECT_EQ(alike.probability(2), 0.0f);
+  EXPECT_FLOAT_EQ(alike.probability(3), 1 / 3.0f);
+  EXPECT_FALSE(LightSampler(std::vector<Light>{area(0), infinite(0)}).sample(0.5));
+  EXPECT_FALSE(LightSampler(std::vector<Light>{}).sample(0));
+  EXPECT_FALSE(LightSampler().sample(0));
 }
 
 }  // namespace

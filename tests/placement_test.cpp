@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "compare_films.h"
+#include "expect_agreement.h"
 
 namespace etd {
 namespace {

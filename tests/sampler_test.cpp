@@ -1,5 +1,5 @@
-// The samplers: stratification that must hold exactly, and uniformity and independence as tests with stated levels of
-// false alarm. Everything is deterministic, so a test that passes once passes always.
+// What the battery over samplers (verify/battery_sampler.cpp) cannot know: how Sobol's points are made, and what they
+// are good for. Everything is deterministic, so a test that passes once passes always.
 #include "samplers/sampler.h"
 
 #include <gtest/gtest.h>
@@ -64,97 +64,6 @@ TEST(OwenSobol, ScrambleIsNestedAndShuffleKeepsAlignedBlocks) {
   }
 }
 
-// Every box of the form [i/2^a, (i+1)/2^a) x [j/2^b, (j+1)/2^b) with a + b = m holds one of 2^m points.
-TEST(SobolSampler, AlignedBlocksArePointSetsOfTheBestQuality) {
-  for (uint32_t run = 0; run < 24; ++run) {
-    for (uint32_t m = 0; m <= 9; ++m) {
-      const uint32_t n = 1u << m, first = run % 3 * n;
-      std::vector<Vec2> points;
-      for (uint32_t i = first; i < first + n; ++i)
-        points.push_back(started(SamplerKind::kSobol, run, 77 * run, run % 2, i, run).get_2d());
-      for (uint32_t a = 0; a <= m; ++a) {
-        std::vector<int> count(n, 0);
-        for (const Vec2 p : points) {
-          const auto column = static_cast<uint32_t>(p.x * static_cast<float>(1u << a));
-          const auto row = static_cast<uint32_t>(p.y * static_cast<float>(1u << (m - a)));
-          ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-          ++count[column << (m - a) | row];
-        }
-        for (const int c : count) ASSERT_EQ(c, 1) << "run " << run << ", 2^" << m << " points, a = " << a;
-      }
-    }
-  }
-}
-
-TEST(SobolSampler, OneDimensionIsStratified) {
-  for (uint32_t run = 0; run < 50; ++run) {
-    const uint32_t n = 256, first = run * n;
-    std::set<int> strata, choice_strata;
-    for (uint32_t i = first; i < first + n; ++i) {
-      strata.insert(static_cast<int>(started(SamplerKind::kSobol, 3, run, 0, i, 5).get_1d() * n));
-      choice_strata.insert(static_cast<int>(started(SamplerKind::kSobol, 3, run, 0, i, 5).get_choice() * n));
-    }
-    EXPECT_EQ(strata.size(), n);
-    EXPECT_EQ(choice_strata.size(), n);
-  }
-}
-
-// For a fixed index, the scramble alone makes the value uniform: what unbiasedness rests on.
-TEST(Sampler, EveryIndexIsUniformOverStreams) {
-  constexpr int kStreams = 1 << 15, kCells = 64;
-  const uint32_t indices[] = {0, 1, 2, 7, 1000, 0xffffffffu};
-  const double level = sidak_level(kFamily, 2 * 6 * 4);
-  for (const SamplerKind kind : kKinds)
-    for (const uint32_t index : indices) {
-      std::vector<double> counts[4], expected(kCells, double(kStreams) / kCells);
-      for (auto& c : counts) c.assign(kCells, 0.0);
-      for (uint64_t stream = 0; stream < kStreams; ++stream) {
-        const Vec2 xy = started(kind, 0, stream, 0, index, 0).get_2d();
-        const double values[4] = {xy.x, xy.y, started(kind, 0, stream, 0, index, 1).get_1d(),
-                                  started(kind, 0, stream, 0, index, 2).get_choice()};
-        for (size_t v = 0; v < 4; ++v) ++counts[v][static_cast<size_t>(values[v] * kCells)];
-      }
-      for (const auto& c : counts) EXPECT_GT(chi_square_test(c, expected, 5).p_value, level) << index;
-    }
-}
-
-// Numbers of different pixels, replicates, indices and dimensions, drawn together many times: every pair of them must
-// be independent, as their joint histogram tells. Of one dimension of one stream, Sobol's points for different indices
-// are meant to depend on each other, and are left out.
-TEST(Sampler, EverythingElseIsIndependent) {
-  constexpr size_t kDraws = 8192, kVariables = 48, kCells = 8;
-  struct Origin {
-    uint32_t pixel, replicate, index, dimension;
-  };
-  for (const SamplerKind kind : kKinds) {
-    std::vector<Origin> origins;
-    std::vector<std::vector<uint8_t>> cells(kVariables, std::vector<uint8_t>(kDraws));
-    for (uint32_t pixel = 0; pixel < 2; ++pixel)
-      for (uint32_t replicate = 0; replicate < 2; ++replicate)
-        for (uint32_t index = 0; index < 2; ++index)
-          for (uint32_t dimension = 0; dimension < 3; ++dimension) {
-            for (size_t draw = 0; draw < kDraws; ++draw) {
-              const Vec2 u = started(kind, 0, 2 * draw + pixel, replicate, index, dimension).get_2d();
-              cells[origins.size()][draw] = static_cast<uint8_t>(u.x * kCells);
-              cells[origins.size() + 1][draw] = static_cast<uint8_t>(u.y * kCells);
-            }
-            origins.insert(origins.end(), 2, {pixel, replicate, index, dimension});
-          }
-    ASSERT_EQ(origins.size(), kVariables);
-    const double level = bonferroni_level(kFamily, kVariables * kVariables / 2);
-    const std::vector<double> expected(kCells * kCells, double(kDraws) / (kCells * kCells));
-    for (size_t a = 0; a < kVariables; ++a)
-      for (size_t b = a + 1; b < kVariables; ++b) {
-        const Origin &o = origins[a], &p = origins[b];
-        if (o.pixel == p.pixel && o.replicate == p.replicate && o.dimension == p.dimension && o.index != p.index)
-          continue;
-        std::vector<double> counts(kCells * kCells, 0.0);
-        for (size_t draw = 0; draw < kDraws; ++draw) ++counts[cells[a][draw] * kCells + cells[b][draw]];
-        ASSERT_GT(chi_square_test(counts, expected, 5).p_value, level) << a << " and " << b;
-      }
-  }
-}
-
 // The order of a padded dimension and its two scrambles come from one hash: none may tell anything of another.
 TEST(SobolSampler, OrderAndScramblesOfADimensionAreIndependent) {
   constexpr size_t kKeys = 1 << 15;
@@ -171,38 +80,6 @@ TEST(SobolSampler, OrderAndScramblesOfADimensionAreIndependent) {
     ++counts[2][x * 16 + y];
   }
   for (const auto& c : counts) EXPECT_GT(chi_square_test(c, expected, 5).p_value, sidak_level(kFamily, 3));
-}
-
-TEST(Sampler, SeedsAndReplicatesNeverShareNumbers) {
-  std::set<uint64_t> keys;
-  for (uint64_t seed = 0; seed < 64; ++seed)
-    for (uint32_t replicate = 0; replicate < 512; ++replicate)
-      keys.insert(started(SamplerKind::kIndependent, seed, 0, replicate, 0, 0).key(0));
-  EXPECT_EQ(keys.size(), 64u * 512u);
-}
-
-TEST(Sampler, NumbersDependOnNothingButTheirPlace) {
-  for (const SamplerKind kind : kKinds) {
-    Sampler forwards(kind, 9), again(kind, 9);
-    for (uint32_t index = 0; index < 50; ++index) {
-      forwards.start(1234, 1, index);
-      const float a = forwards.get_1d();
-      const Vec2 b = forwards.get_2d();
-      const Vec3 c = forwards.get_3d();  // two dimensions
-      const double d = forwards.get_choice();
-      again.start(99, 0, 3);
-      again.get_2d();
-      again.start(1234, 1, index);
-      again.set_dimension(4);
-      EXPECT_EQ(again.get_choice(), d);
-      again.set_dimension(2);
-      EXPECT_EQ(again.get_3d(), c);
-      again.set_dimension(1);
-      EXPECT_EQ(again.get_2d(), b);
-      again.set_dimension(0);
-      EXPECT_EQ(again.get_1d(), a);
-    }
-  }
 }
 
 // The point of it all: of a smooth function, Sobol's error is a small part of that of independent points.

@@ -7,9 +7,9 @@
 
 namespace etd::cli {
 
-// 0: done; 1: an internal error; 2: something is wrong with what the user gave; 130, 143: stopped by a signal, with the
-// image written. `diff` has codes of its own.
-enum ExitCode : int { kOk = 0, kInternalError = 1, kBadInput = 2 };
+// 0: done; 1: an internal error, or a verification that failed; 2: something is wrong with what the user gave; 130,
+// 143: stopped by a signal, with the image written. `diff` has codes of its own.
+enum ExitCode : int { kOk = 0, kInternalError = 1, kFailed = 1, kBadInput = 2 };
 
 using Run = std::function<int()>;
 
@@ -19,5 +19,6 @@ void add_diff(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_describe(CLI::App& app, Run& run);
+void add_verify(CLI::App& app, Run& run);
 
 }  // namespace etd::cli

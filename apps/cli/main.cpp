@@ -23,6 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   etendue diff a.exr b.exr                               how two images differ, and whether more than noise does
   etendue check scene.pbrt                               everything that is wrong with a scene
   etendue describe material conductor                    its parameters
+  etendue verify                                         every model against its own promises
 
 `etendue COMMAND --help` tells more about a command.)";
 
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
   etd::cli::add_info(app, run);
   etd::cli::add_check(app, run);
   etd::cli::add_describe(app, run);
+  etd::cli::add_verify(app, run);
   if (report_unknown_command(app, argc > 1 ? argv[1] : nullptr)) return etd::cli::kBadInput;
   try {
     app.parse(argc, argv);

@@ -35,7 +35,17 @@ const ModelDecl& PathIntegrator::decl() {
         .default_value = 2,
         .min = 1,
         .max = 1 << 20,
-        .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."}}};
+        .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
+       {.name = "misheuristic",
+        .type = ParamType::kString,
+        .default_value = std::string("power"),
+        .choices = {"power", "balance", "maximum", "uniform"},
+        .doc = "How mode mis weights the two ways to find light; never changes the mean."},
+       {.name = "lightsampler",
+        .type = ParamType::kString,
+        .default_value = std::string("power"),
+        .choices = {"power", "uniform"},
+        .doc = "How lights are chosen for sampling: by their power, or all alike; never changes the mean."}}};
   return d;
 }
 
@@ -51,7 +61,14 @@ PathSettings PathIntegrator::settings(const ParamReader& p) {
   // No path is longer than the deepest component that is kept.
   if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
   s.roulette_depth = p.integer("roulettedepth");
+  s.heuristic = mis_heuristic(p.string("misheuristic"));
+  s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
   return s;
+}
+
+PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context)
+    : PixelIntegrator(context), scene_(scene), settings_(settings) {
+  if (settings.light_choice == LightChoice::kUniform) uniform_.emplace(scene.lights, LightChoice::kUniform);
 }
 
 std::string PathIntegrator::bias() const {
@@ -71,13 +88,6 @@ namespace {
 constexpr uint32_t kCameraDimensions = 4, kVertexDimensions = 6;
 enum VertexDimension : uint32_t { kLightChoice, kLightPoint, kScatter, kScatterLobe, kRoulette };
 
-// Power heuristic with exponent 2 for one sample of each technique (Veach 1997, eq. 9.13).
-float mis_weight(float pdf, float other) {
-  if (std::isinf(pdf)) return 1.0f;
-  const float p2 = pdf * pdf, o2 = other * other;
-  return p2 + o2 > 0.0f && std::isfinite(p2 + o2) ? p2 / (p2 + o2) : (pdf > other ? 1.0f : 0.0f);
-}
-
 // Under MIS scattering reaches every direction as well.
 LightSampling light_sampling(PathMode mode) {
   return mode == PathMode::kMis ? LightSampling::kCompensated : LightSampling::kComplete;
@@ -90,14 +100,14 @@ struct Vertex {
 };
 
 // Radiance that one sampled light sends along wo through the vertex, weighted against closure sampling under MIS.
-Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler& sampler, HashStream& rng, float time,
-                    PixelSample& out) {
+Spectrum next_event(const Scene& scene, const LightSampler& lights, const Vertex& v, const PathSettings& settings,
+                    Sampler& sampler, HashStream& rng, float time, PixelSample& out) {
   const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
-  const auto choice = scene.light_sampler.sample(u_light);
+  const auto choice = lights.sample(u_light);
   if (!choice) return Spectrum();
   const Light& light = scene.lights[choice->light];
-  const auto s = light.sample_li(v.point.p, u_point, light_sampling(mode));
+  const auto s = light.sample_li(v.point.p, u_point, light_sampling(settings.mode));
   if (!s) return Spectrum();
   Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
   if (is_black(f)) return Spectrum();
@@ -106,8 +116,9 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
   if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, time) : shadow_ray(v.point, s->on_light, time)))
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
-  const bool both = mode == PathMode::kMis && !s->is_delta;
-  const float weight = both ? mis_weight(pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
+  const bool both = settings.mode == PathMode::kMis && !s->is_delta;
+  const float weight =
+      both ? mis_weight(settings.heuristic, pdf, v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance)) : 1.0f;
   return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
 }
 
@@ -121,6 +132,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
                         0.0f};
   Ray ray = scene_.camera.generate_ray(at);
 
+  const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
   Spectrum beta(film.weight);   // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
@@ -139,7 +151,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;
     if (settings_.mode == PathMode::kNextEvent) return 0.0f;
     const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode));
-    return mis_weight(scatter_pdf, scene_.light_sampler.probability(light) * pdf);
+    return mis_weight(settings_.heuristic, scatter_pdf, lights.probability(light) * pdf);
   };
 
   for (int depth = 0;; ++depth) {
@@ -179,7 +191,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      add(depth + 1, beta * next_event(scene_, {point, scatter, wo}, settings_.mode, sampler, rng, ray.time, out));
+      add(depth + 1, beta * next_event(scene_, lights, {point, scatter, wo}, settings_, sampler, rng, ray.time, out));
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.

@@ -1,6 +1,7 @@
 // Path tracing (Kajiya 1986): from the camera, one random path at a time.
 #pragma once
 
+#include "integrators/mis.h"
 #include "integrators/pixel_integrator.h"
 #include "params/declaration.h"
 #include "scene/scene.h"
@@ -11,7 +12,7 @@ namespace etd {
 enum class PathMode : uint8_t {
   kNaive,      // only by running into emitters
   kNextEvent,  // by sampling a light at every vertex; emitters that are run into count after delta lobes alone
-  kMis,        // both, weighted by the power heuristic (Veach 1997, section 9.2)
+  kMis,        // both, weighted (mis.h)
 };
 
 struct PathSettings {
@@ -19,6 +20,8 @@ struct PathSettings {
   PathMode mode = PathMode::kMis;
   bool emission = true, direct = true, indirect = true;  // which components are kept
   int roulette_depth = 2;                                // first depth at which paths may be ended early
+  MisHeuristic heuristic = MisHeuristic::kPower;
+  LightChoice light_choice = LightChoice::kPower;
 };
 
 class PathIntegrator : public PixelIntegrator {
@@ -26,8 +29,7 @@ class PathIntegrator : public PixelIntegrator {
   static const ModelDecl& decl();
   static PathSettings settings(const ParamReader& params);
 
-  PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context)
-      : PixelIntegrator(context), scene_(scene), settings_(settings) {}
+  PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context);
 
   std::string bias() const override;
 
@@ -37,6 +39,7 @@ class PathIntegrator : public PixelIntegrator {
  private:
   const Scene& scene_;
   PathSettings settings_;
+  std::optional<LightSampler> uniform_;  // in place of the scene's
 };
 
 }  // namespace etd

@@ -31,7 +31,7 @@ FilmSettings film_settings(const RenderSettings& s) {
 }
 
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics) {
+                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled) {
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
@@ -40,8 +40,10 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   check_film_memory(settings, diagnostics);
 
   ThreadLimit threads(settings.threads);  // building the accelerator is parallel too
-  prepared.scene = threads.run(
-      [&] { return compile(description, {.width = settings.width, .height = settings.height}, diagnostics); });
+  prepared.scene = std::move(compiled);
+  if (!prepared.scene)
+    prepared.scene = threads.run(
+        [&] { return compile(description, {.width = settings.width, .height = settings.height}, diagnostics); });
   if (diagnostics.has_errors() || !prepared.scene) return {};
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,

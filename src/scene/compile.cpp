@@ -120,7 +120,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   scene->filter = make_filter(description.filter, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
 
-  scene->light_sampler = PowerLightSampler(scene->lights);
+  scene->light_sampler = LightSampler(scene->lights);
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
   return scene;
 }

@@ -11,7 +11,7 @@
 #include "cameras/camera.h"
 #include "core/bounds.h"
 #include "filters/filter.h"
-#include "light_sampling/power_light_sampler.h"
+#include "light_sampling/light_sampler.h"
 #include "lights/light_data.h"
 #include "materials/material.h"
 
@@ -82,7 +82,7 @@ class Scene {
   std::vector<FloatSource> light_alphas;  // by light; only as long as the last that has holes
   std::vector<uint32_t> infinite_lights;  // those that rays can find
   LightData light_data;
-  PowerLightSampler light_sampler;
+  LightSampler light_sampler;
   Camera camera;
   CameraData camera_data;
   Filter filter;

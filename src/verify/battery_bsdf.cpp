@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "verify/battery.h"
 #include "verify/bsdf_checks.h"
 
 namespace etd {
@@ -39,7 +40,7 @@ std::string describe(Vec3 wo, TransportMode mode, Lobe sides) {
 
 std::vector<CheckResult> check_bsdf(const ScatterModel& model, const BsdfBatteryOptions& options) {
   std::vector<CheckResult> results;
-  CheckResult traits{model.name, "traits agree with lobes", true, 0.0, {}, ""};
+  CheckResult traits{model.name, "traits agree with lobes", true, 0.0, {}, "", nullptr};
   if (model.traits.delta && model.has_smooth()) traits.passed = false, traits.text = "`delta` but has smooth lobes";
   results.push_back(traits);
   bsdf_checks::check_finite(model, results);
@@ -53,6 +54,17 @@ std::vector<CheckResult> check_bsdf(const ScatterModel& model, const BsdfBattery
   bsdf_checks::check_histograms(model, options, results);
   judge(results, options.family_level);
   return results;
+}
+
+std::vector<BatterySubject> bsdf_subjects() {
+  constexpr double kSamples = 100000;
+  std::vector<BatterySubject> subjects;
+  for (const BsdfExample& e : bsdf_examples())
+    subjects.push_back(
+        {"bsdf", e.name.substr(0, e.name.find('(')), e.name, [&e](const BatteryOptions& o) {
+           return check_bsdf(scatter_model(e), {static_cast<size_t>(o.samples * kSamples), o.seed, o.family_level});
+         }});
+  return subjects;
 }
 
 }  // namespace etd

@@ -8,18 +8,14 @@
 #include "core/frame.h"
 #include "core/hash.h"
 #include "core/warp.h"
-#include "verify/direction_grid.h"
-#include "verify/worst.h"
+#include "verify/battery.h"
+#include "verify/direction_histogram.h"
 
 namespace etd {
 
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
-// Cells that the light's outline crosses are integrated to about this share of the whole.
-constexpr double kIntegrationError = 1e-3;
-constexpr double kMinExpected = 20.0;
-constexpr size_t kCells = 64;
 
 std::string describe(Point3 p) { return fmt::format("seen from ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); }
 
@@ -94,36 +90,13 @@ void check_density(const LightModel& m, const LightRays& rays, Point3 p, size_t 
     if (!s || !rays.visible(p, *s)) return {};
     return s->wi;
   };
-  std::vector<Vec3> pilots;
-  HashStream pilot_numbers(hash_combine(seed, 1)), numbers(hash_combine(seed, 2));
-  for (size_t i = 0; i < samples / 2; ++i)
-    if (const auto wi = draw(pilot_numbers)) pilots.push_back(*wi);
-  const DirectionGrid grid(pilots, std::max<size_t>(samples / 2 / kCells, 1));
-
-  std::vector<double> observed(grid.cell_count(), 0.0), expected;
-  double elsewhere = 0, integral = 0;
-  for (size_t i = 0; i < samples; ++i) {
-    const auto wi = draw(numbers);
-    (wi ? observed[grid.find(*wi)] : elsewhere) += 1.0;
-  }
-  const double n = static_cast<double>(samples);
-  for (size_t i = 0; i < grid.cell_count(); ++i) {
-    const auto cell = grid.integrate(
-        i, [&](Vec3 wi) { return std::array<double, 4>{rays.pdf_visible(p, wi)}; }, 1e-4, true);
-    expected.push_back(n * cell[0]);
-    integral += cell[0];
-  }
-  const std::string picture = grid.describe_worst(observed, expected);
-  observed.push_back(elsewhere);
-  expected.push_back(std::max(0.0, n * (1.0 - integral)));
-  const TestResult chi = chi_square_test(observed, expected, kMinExpected);
-  chi_square.add(chi.statistic, chi.p_value, [&] {
-    return fmt::format("{}, {} dof{}", describe(p), chi.dof, chi.p_value < 1e-4 ? "\n" + picture : "");
-  });
-  const double inside = 1.0 - elsewhere / n, q = std::clamp(integral, 0.0, 1.0);
-  const double z = (inside - integral) / std::sqrt(q * (1.0 - q) / n + sqr(kIntegrationError));
-  mass.add(z, normal_two_sided(z),
-           [&] { return fmt::format("{}: integral {:.6f}, visible share {:.6f}", describe(p), integral, inside); });
+  // Cells that the light's outline crosses are integrated to about a thousandth of the whole.
+  const DirectionDensity density{.draw = draw,
+                                 .pdf = [&](Vec3 wi) { return rays.pdf_visible(p, wi); },
+                                 .jumps = true,
+                                 .cells = 64,
+                                 .integration_error = 1e-3};
+  check_direction_density(density, describe(p), samples, seed, chi_square, mass);
 }
 
 // The integral of radiance over directions, weighted by 1, by x and by a mixture, estimated in both ways.
@@ -274,6 +247,17 @@ std::vector<CheckResult> check_light(const LightModel& m, const LightBatteryOpti
                                    mass.result(),   radiance.result(), power.result()};
   judge(results, options.family_level);
   return results;
+}
+
+std::vector<BatterySubject> light_subjects() {
+  constexpr double kSamples = 40000;
+  std::vector<BatterySubject> subjects;
+  for (const LightExample& e : light_examples())
+    subjects.push_back(
+        {"light", e.name.substr(0, e.name.find('(')), e.name, [&e](const BatteryOptions& o) {
+           return check_light(light_model(e), {static_cast<size_t>(o.samples * kSamples), o.seed, o.family_level});
+         }});
+  return subjects;
 }
 
 }  // namespace etd

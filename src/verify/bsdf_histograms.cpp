@@ -113,13 +113,14 @@ std::array<double, 3> check_setting(const ScatterModel& m, const Setting& t, siz
   observed.push_back(histogram.elsewhere());
   expected.push_back(std::max(0.0, n * (1.0 - integrals.pdf)));
   const TestResult chi = chi_square_test(observed, expected, kMinExpected);
-  c.chi_square.add(chi.statistic, chi.p_value, [&] {
+  const bool worst = c.chi_square.add(chi.statistic, chi.p_value, [&] {
     std::string text = fmt::format("{}, {} dof", where, chi.dof);
     if (chi.p_value < 1e-4)
       text += fmt::format("; failed or delta: {} of {}, expected {:.1f}\n{}", histogram.elsewhere(), samples,
                           n * (1.0 - integrals.pdf), picture);
     return text;
   });
+  if (worst) c.chi_square.set_map(histogram.grid().map(observed, expected));
 
   const double inside = 1.0 - histogram.elsewhere() / n, p = clamp(static_cast<float>(integrals.pdf), 0.0f, 1.0f);
   const double z_mass = (inside - integrals.pdf) / std::sqrt(p * (1.0 - p) / n + sqr(kIntegrationError));

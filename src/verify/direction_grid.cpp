@@ -149,4 +149,22 @@ std::string DirectionGrid::describe_worst(const std::vector<double>& observed,
   return text;
 }
 
+CheckMap DirectionGrid::map(const std::vector<double>& observed, const std::vector<double>& expected) const {
+  CheckMap map;
+  map.width = 360, map.height = 180;
+  map.axes = "theta from 0 (+z) down to 180 degrees, phi from -180 to 180 to the right";
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) {
+      const double theta = (row + 0.5) / map.height * kPiD, phi = ((column + 0.5) / map.width * 2.0 - 1.0) * kPiD;
+      const double s = std::sin(theta);
+      const size_t i = find(to_float(Vec3d{s * std::cos(phi), s * std::sin(phi), std::cos(theta)}));
+      const Rect& r = cells_[i];
+      const double solid_angle = (std::cos(r.x0) - std::cos(r.x1)) * (r.y1 - r.y0);
+      map.sampled.push_back(static_cast<float>(observed[i] / solid_angle));
+      map.expected.push_back(static_cast<float>(expected[i] / solid_angle));
+      map.sigmas.push_back(static_cast<float>((observed[i] - expected[i]) / std::sqrt(std::max(expected[i], 1.0))));
+    }
+  return map;
+}
+
 }  // namespace etd

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "verify/check.h"
 #include "verify/quadrature.h"
 
 namespace etd {
@@ -31,6 +32,8 @@ class DirectionGrid {
   // Observed against expected counts per cell: a map of the sphere (theta down, phi to the right) marking where more
   // (+, # beyond 5 sigma) or fewer (-, =) were found, and a table of the worst cells.
   std::string describe_worst(const std::vector<double>& observed, const std::vector<double>& expected) const;
+  // The same as pictures of the sphere.
+  CheckMap map(const std::vector<double>& observed, const std::vector<double>& expected) const;
 
  private:
   struct Node {

@@ -148,6 +148,13 @@ TestResult welch_test(const MeanEstimate& a, const MeanEstimate& b) {
   return result;
 }
 
+bool would_be_seen(double relative, double mean, double standard_error, double dof, double level) {
+  constexpr double kNinthDecile = 1.2816;  // of the normal distribution
+  if (standard_error == 0.0) return true;
+  const double t = relative * std::abs(mean) / standard_error - kNinthDecile;
+  return t > 0.0 && student_t_two_sided(t, dof) < level;
+}
+
 TestResult chi_square_test(std::span<const double> observed, std::span<const double> expected, double min_expected) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -74,6 +74,10 @@ TestResult t_test(const RunningStats& sample, double expected);
 TestResult welch_test(const MeanEstimate& a, const MeanEstimate& b);
 TestResult welch_test(const RunningStats& a, const RunningStats& b);
 
+// Whether a relative error `relative` in a mean of this size would be found with a probability of 9 in 10 by a t-test
+// at the level, given the standard error of what is tested and its degrees of freedom.
+bool would_be_seen(double relative, double mean, double standard_error, double dof, double level);
+
 // Pearson's test of observed counts against expected ones. Cells of which fewer than `min_expected` are expected are
 // pooled, smallest first. No parameter is fitted: dof = pooled cells - 1. A count where nothing at all is expected
 // gives p = 0.

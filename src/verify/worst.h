@@ -34,6 +34,7 @@ class Worst {
     CheckResult r = result_;
     r.statistic = worst_;
     r.passed = worst_ <= tolerance_;
+    r.tolerance = tolerance_;
     return r;
   }
 
@@ -45,15 +46,23 @@ class Worst {
 // The smallest p-value of one check in several independent settings, corrected for their number.
 class WorstP {
  public:
-  WorstP(std::string subject, std::string name) : result_{std::move(subject), std::move(name), true, 0.0, 1.0, ""} {}
+  WorstP(std::string subject, std::string name)
+      : result_{std::move(subject), std::move(name), true, 0.0, 1.0, "", nullptr} {}
+  // True when this is the worst so far.
   template <class F>
-  void add(double statistic, double p, F&& text) {
+  bool add(double statistic, double p, F&& text) {
     ++tests_;
-    if (p >= *result_.p_value && tests_ > 1) return;
+    if (p >= *result_.p_value && tests_ > 1) return false;
     result_.statistic = statistic;
     result_.p_value = std::isnan(p) ? 0.0 : p;
     result_.text = text();
+    result_.map = nullptr;
+    return true;
   }
+  // Of the worst so far.
+  void set_map(CheckMap map) { result_.map = std::make_shared<const CheckMap>(std::move(map)); }
+  // Whether anything was compared.
+  bool any() const { return tests_ > 0; }
   CheckResult result() const {
     CheckResult r = result_;
     r.p_value = sidak_combined(*r.p_value, tests_);

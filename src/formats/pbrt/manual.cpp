@@ -120,9 +120,9 @@ std::string pbrt_coverage_markdown() {
       "\n## Other names\n\nRendered with the sampler `sobol`, keeping the number of samples and the seed, with one "
       "printed\n"
       "line (`paddedsobol` is the same and prints none): {}.\n\n"
-      "Rendered with the integrator `path`, keeping `maxdepth`, with one printed line: {}.\n\n"
-      "`randomization` of a sampler, `lightsampler` of an integrator and `Accelerator` are not used and print one "
-      "line.\n",
+      "Rendered with the integrator `path`, keeping `maxdepth` and `lightsampler`, with one printed line: {}.\n\n"
+      "`randomization` of a sampler and `Accelerator` are not used and print one line; so do the light samplers `bvh` "
+      "and\n`exhaustive`, for which `power` is taken.\n",
       list_of_names(pbrt::mapped_samplers()), list_of_names(pbrt::mapped_integrators()));
   out += "\n## Options\n" + options_table();
   out +=

@@ -123,15 +123,18 @@ void sampler(Parser& p, const Token& d) {
   replace(p, p.scene.sampler, std::move(*use), d);
 }
 
+// Those of pbrt that are not ours.
+constexpr std::string_view kLightSamplers[] = {"bvh", "exhaustive"};
+
 // What the path integrator of pbrt has beside its depth.
 void read_path_params(Parser& p, ModelUse& use) {
   const ModelDecl* decl = find_any_model(Family::kIntegrator, "path");
   const auto foreign = [&](const Param& param) {
-    if (decl && decl->find(param.name)) return false;
-    if (param.name == "lightsampler") {
-      p.diagnostics.note(param.loc, "lights are chosen by their power, whatever \"lightsampler\" says");
+    if (param.name == "lightsampler" && param.strings.size() == 1 && contains(kLightSamplers, param.strings[0])) {
+      p.diagnostics.note(param.loc, fmt::format("lights are chosen by their power, not by \"{}\"", param.strings[0]));
       return true;
     }
+    if (decl && decl->find(param.name)) return false;
     if (param.name != "regularize") return false;
     if (param.integers.size() != 1 || param.integers[0])
       p.diagnostics.unsupported(param.loc, "parameter \"regularize\" of integrator \"path\"",
@@ -148,7 +151,7 @@ void integrator(Parser& p, const Token& d) {
   const bool mapped = contains(mapped_integrators(), use->model);
   if (!own && !mapped) replace_unknown(p, *use, Family::kIntegrator, "path", mapped_integrators());
   if (own ? use->model == "path" : mapped) read_path_params(p, *use);
-  if (!own && mapped) map_to_ours(p, *use, "path", {"maxdepth"}, false, "integrator");
+  if (!own && mapped) map_to_ours(p, *use, "path", {"maxdepth", "lightsampler"}, false, "integrator");
   drop_old_params(Family::kIntegrator, *use, p.diagnostics);
   replace(p, p.scene.integrator, std::move(*use), d);
 }
