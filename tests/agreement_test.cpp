@@ -1,7 +1,7 @@
 // Estimators of one image must agree: naive = next_event = mis, roulette early, late or never, independent numbers or
 // Sobol's, each heuristic, each choice of lights. Compared are the means of blocks of 8 x 8 pixels and of the whole
-// image, by Welch tests that together raise a false alarm with a probability of at most 1e-4. That they would find an
-// error of 1 % in the image is tested too; what differs is rendered once more. The results are a table in
+// image, by Welch tests that together raise a false alarm with a probability of at most 1e-4; what differs is rendered
+// once more. That they would find an error of 1 % in the image is tested too. The results are a table in
 // docs/verification.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -317,6 +317,33 @@ TEST_F(Cli, DescribeShowsModels) {
   EXPECT_TRUE(has(run("describe --markdown").out, "# "));
 }
 
+TEST_F(Cli, VerifyModels) {
+  const Finished all = run("verify warp");
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  EXPECT_TRUE(has(all.out, "sample_hemisphere_cosine")) << all.out;
+  const Finished one = run("verify filter triangle --samples 0.1x --json -o pictures");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_TRUE(nlohmann::json::parse(one.out)["passed"].get<bool>());
+  EXPECT_TRUE(exists("pictures/filter-triangle-weighted-samples-follow-it.png"));
+  const Finished misspelt = run("verify materal");
+  EXPECT_EQ(misspelt.exit_code, 2);
+  EXPECT_TRUE(has(misspelt.err, "did you mean \"material\"?")) << misspelt.err;
+  EXPECT_EQ(run("verify filter bocks").exit_code, 2);
+  EXPECT_EQ(run("verify filter box --samples many").exit_code, 2);
+}
+
+TEST_F(Cli, VerifyScene) {
+  folder_.write("s.pbrt", kScene);
+  const Finished agrees = run("verify scene s.pbrt --spp 64 --json");
+  EXPECT_EQ(agrees.exit_code, 0) << agrees.err;
+  const auto json = nlohmann::json::parse(agrees.out);
+  EXPECT_TRUE(json["passed"].get<bool>());
+  EXPECT_EQ(json["estimators"].size(), 8u);
+  EXPECT_TRUE(has(run("verify scene s.pbrt --spp 32").out, "next_event"));
+  EXPECT_EQ(run("verify scene nowhere.pbrt").exit_code, 2);
+  EXPECT_EQ(run("verify scene s.pbrt --spp 32 --time 1s").exit_code, 2);
+}
+
 TEST_F(Cli, TheViewerReceivesTheImage) {
   folder_.write("s.pbrt", kScene);
   TevPeer peer;

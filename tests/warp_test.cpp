@@ -22,7 +22,7 @@ std::string slurp(const std::filesystem::path& path) {
 // Functions and members of core/ whose name begins with "sample", as CLASS::NAME.
 std::set<std::string> sampling_functions() {
   std::set<std::string> names;
-  const std::regex outer("^(?:class|struct) (\\w+)[^;]*\\{"), function("\\b(sample\\w*)\\((?:Vec2|double|float) u\\)");
+  const std::regex outer("^(?:class|struct) (\\w+)[^;]*\\{"), function("\\b(sample\\w*)\\((?:Vec2|double|float) u\\b");
   for (const auto& file : std::filesystem::directory_iterator(source_path("src/core"))) {
     if (file.path().extension() != ".h") continue;
     std::istringstream in(slurp(file.path()));

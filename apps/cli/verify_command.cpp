@@ -155,9 +155,12 @@ CLI::App* add_scene_command(CLI::App& command, const std::shared_ptr<VerifyScene
   scene->add_flag("--json", args->json, "the result as JSON");
   scene->add_flag("--quiet", args->quiet, "no progress");
   scene->footer(
-      "Each estimator of the path tracer is compared with its usual way (mis, sobol) by Welch tests of the whole image\n"
-      "and of blocks of 8x8 pixels, which raise a false alarm in one of 10000 scenes. What disagrees is rendered again\n"
-      "with four times the samples before it is said. \"cannot tell\" means that the estimator is too noisy here, or that\n"
+      "Each estimator of the path tracer is compared with its usual way (mis, sobol) by Welch tests of the whole "
+      "image\n"
+      "and of blocks of 8x8 pixels, which raise a false alarm in one of 10000 scenes. What disagrees is rendered "
+      "again\n"
+      "with four times the samples before it is said. \"cannot tell\" means that the estimator is too noisy here, or "
+      "that\n"
       "it rests on rare bright samples of which too few were met: more samples (--spp, --time) may decide.\n"
       "\n"
       "Exits with 0 when nothing disagrees, with 1 when something does, with 2 when the scene has problems.");
@@ -171,7 +174,8 @@ void add_verify(CLI::App& app, Run& run) {
   auto scene = std::make_shared<VerifySceneArguments>();
   CLI::App* command =
       app.add_subcommand("verify", "Test every model against its own promises, or a scene by several estimators.");
-  command->add_option("family", models->family, "material, bsdf, light, phase, sampler, camera, filter, texture, warp ...");
+  command->add_option("family", models->family,
+                      "material, bsdf, light, phase, sampler, camera, filter, texture, warp ...");
   command->add_option("model", models->model, "a model of this family, verified with more samples");
   command
       ->add_option_function<std::string>(
@@ -203,7 +207,8 @@ void add_verify(CLI::App& app, Run& run) {
       "  etendue verify material conductor --samples 16x -o out pictures of the histograms of one model\n"
       "  etendue verify scene my.pbrt --time 2m                 do all estimators give the same image?\n"
       "\n"
-      "Statistical checks raise a false alarm in one of 10000 runs; what fails is run again with four times the samples\n"
+      "Statistical checks raise a false alarm in one of 10000 runs; what fails is run again with four times the "
+      "samples\n"
       "before it counts. `deviation` is the largest of the other checks, as a share of what rounding may cause.\n"
       "Exits with 0 when everything passes, with 1 when something fails, with 2 when the command line has errors.");
   command->callback([models, scene, scene_command, &run] {

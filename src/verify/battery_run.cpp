@@ -91,13 +91,14 @@ BatteryRun run_battery(const std::vector<BatterySubject>& subjects, BatteryOptio
 
 std::string battery_table(const BatteryRun& run, bool details) {
   size_t family = 6, model = 5;
-  for (const ModelReport& m : run.models) family = std::max(family, m.family.size()), model = std::max(model, m.model.size());
+  for (const ModelReport& m : run.models)
+    family = std::max(family, m.family.size()), model = std::max(model, m.model.size());
   std::string text = fmt::format("{:{}}  {:{}}  {:>8}  {:>6}  {:>10}  {:>9}  {:>7}  {}\n", "family", family, "model",
                                  model, "settings", "checks", "smallest p", "deviation", "seconds", "verdict");
   for (const ModelReport& m : run.models) {
     const auto p = smallest_p(m);
-    text += fmt::format("{:{}}  {:{}}  {:>8}  {:>6}  {:>10}  {:>9.2f}  {:>7.1f}  {}\n", m.family, family, m.model, model,
-                        m.settings, m.results.size(), p ? fmt::format("{:.2g}", *p) : "-", largest_deviation(m),
+    text += fmt::format("{:{}}  {:{}}  {:>8}  {:>6}  {:>10}  {:>9.2f}  {:>7.1f}  {}\n", m.family, family, m.model,
+                        model, m.settings, m.results.size(), p ? fmt::format("{:.2g}", *p) : "-", largest_deviation(m),
                         m.seconds, m.passed() ? "ok" : "FAILED");
   }
   for (const ModelReport& m : run.models)

@@ -41,7 +41,7 @@ class SmallImage {
 };
 
 std::vector<CheckResult> check_texture(const std::string& name, const ModelUse& use) {
-  Worst made(name, "is made from its declaration", 0.0), finite(name, "finite", 0.0);
+  Worst made(name, "is made from its declaration", 0.5), finite(name, "finite", 0.0);
   Worst same(name, "the same at the same place", 0.0), lanes(name, "a number in all lanes", 0.0);
   const float places[] = {0.0f, -0.0f, 0.25f, 0.5f, 1.0f, kOneMinusEpsilon, -0.3f, 17.0f, -1e4f, 1e6f, 3e9f, 1e-30f};
   for (const bool is_float : {false, true}) {
@@ -75,10 +75,7 @@ std::vector<CheckResult> check_texture(const std::string& name, const ModelUse& 
       check({20.0f * u - 10.0f, 20.0f * v - 10.0f});
     }
   }
-  CheckResult is_made = made.result();
-  is_made.passed = is_made.statistic < 1.0;
-  if (is_made.passed) is_made.text.clear();
-  return {is_made, finite.result(), same.result(), lanes.result()};
+  return {made.result(), finite.result(), same.result(), lanes.result()};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/distribution.h"
 #include "core/solid_angle.h"
 #include "core/warp.h"
+#include "core/windowed_distribution.h"
 #include "phase/henyey_greenstein.h"
 #include "verify/battery.h"
 #include "verify/worst.h"
@@ -95,6 +96,24 @@ Warp grid_distribution() {
   return {"GridDistribution::sample", "4x2", point, pdf, inside};
 }
 
+// A window that cuts cells.
+Warp windowed_distribution() {
+  const std::vector<double> densities{1, 2, 0.5, 4, 3, 1, 5, 2};
+  const auto grid = std::make_shared<const WindowedDistribution>(4, 2, densities);
+  const WindowedDistribution::Window window{{0.1, 0.2}, {0.85, 0.9}};
+  const auto point = [=](Vec2 u) {
+    const WindowedDistribution::Point p = grid->sample(u, window);
+    return Vec3d{p.x, p.y, 0.0};
+  };
+  const auto inside = [=](Vec2 u) {
+    const WindowedDistribution::Point p = grid->sample(u, window);
+    const auto far = [](double cells) { return std::abs(cells - std::round(cells)) > 0.06; };
+    return far(4.0 * p.x) && far(2.0 * p.y);
+  };
+  return {"WindowedDistribution::sample", "4x2", point, [=](Vec2 u) { return grid->pdf(grid->sample(u, window), window); },
+          inside};
+}
+
 Warp visible_normals(float ax, float ay, Vec3 wo) {
   const Ggx ggx{ax, ay};
   const auto pdf = [=](Vec2 u) {
@@ -134,6 +153,7 @@ std::vector<Warp> warps() {
       spherical_cap(1.5),
       spherical_cap(10.0),
       grid_distribution(),
+      windowed_distribution(),
       visible_normals(0.5f, 0.5f, {0, 0, 1}),
       visible_normals(0.1f, 0.6f, oblique),
       visible_normals(0.01f, 0.01f, oblique),

@@ -53,7 +53,7 @@ std::vector<Param> candidates(const ParamDecl& d, const std::string& image) {
       }
       break;
     case ParamType::kInteger:
-      for (const double value : {0.0, 1.0, 3.0}) {
+      for (const double value : {0.0, 3.0, 5.0}) {
         Param p = number_param(d, ParamKind::kInteger, {});
         p.integers = {static_cast<int32_t>(std::clamp(value, d.min, d.max))};
         list.push_back(p);

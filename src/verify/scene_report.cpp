@@ -25,9 +25,9 @@ std::string scene_table(const SceneVerification& v) {
   for (const EstimatorReport& e : v.estimators) {
     constexpr size_t kShown = 6;
     for (size_t i = 0; i < std::min(e.failed.size(), kShown); ++i) {
-      const FilmTest& t = e.failed[i];
-      text += fmt::format("  {}, {}: {:.5g} against {:.5g}, {:+.2f} %, t = {:.1f}\n", e.name, t.what, t.b.mean(),
-                          t.a.mean(), 100 * (t.b.mean() / t.a.mean() - 1), -t.result.statistic);
+      const RegionTest& t = e.failed[i];
+      text +=
+          fmt::format("  {}, {}, t = {:.1f}, p = {:.1e}\n", e.name, describe_test(t), t.result.statistic, t.corrected);
     }
     if (e.failed.size() > kShown) text += fmt::format("  {}, and {} more\n", e.name, e.failed.size() - kShown);
   }
@@ -49,12 +49,12 @@ std::string scene_json(const SceneVerification& v) {
     j["tests"] = e.tests;
     j["left_out"] = e.left_out;
     j["failed"] = nlohmann::ordered_json::array();
-    for (const FilmTest& t : e.failed)
-      j["failed"].push_back({{"what", t.what},
+    for (const RegionTest& t : e.failed)
+      j["failed"].push_back({{"channel", std::string(1, "RGB"[t.channel])},
                              {"region", {t.region.x0, t.region.y0, t.region.x1, t.region.y1}},
-                             {"mean", t.b.mean()},
-                             {"reference", t.a.mean()},
-                             {"p", t.result.p_value}});
+                             {"mean", t.b},
+                             {"reference", t.a},
+                             {"p", t.corrected}});
     json["estimators"].push_back(std::move(j));
   }
   return json.dump(2) + "\n";

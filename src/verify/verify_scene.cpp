@@ -6,6 +6,7 @@
 
 #include "render/session.h"
 #include "scene/scene.h"
+#include "verify/film_mean.h"
 #include "verify/sample_peaks.h"
 
 namespace etd {
@@ -16,6 +17,7 @@ constexpr uint32_t kReplicates = 32;
 constexpr int kLargestSide = 64;
 // Fewer samples than this that carry a region's light are not normally distributed in the mean.
 constexpr double kEffectiveSamples = 50;
+constexpr size_t kChannels = 3;
 // Without roulette, longer paths cost too much.
 constexpr int kLongestWithoutRoulette = 64;
 
@@ -45,8 +47,8 @@ std::vector<Estimator> estimators_for(const Scene& scene, int max_depth) {
   if (scene.lights.size() < 2) all[5].not_applicable = "there is one light at most";
   if (max_depth < 2) all[6].not_applicable = all[7].not_applicable = "paths have one event at most";
   if (max_depth > kLongestWithoutRoulette)
-    all[7].not_applicable = fmt::format("paths may have {} events; --max-depth {} would make it apply", max_depth,
-                                        kLongestWithoutRoulette);
+    all[7].not_applicable =
+        fmt::format("paths may have {} events; --max-depth {} would make it apply", max_depth, kLongestWithoutRoulette);
   return all;
 }
 
@@ -84,51 +86,58 @@ class ProgressObserver : public RenderObserver {
 
 // A region in which two films were compared, and what speaks for chance.
 struct Weighed {
-  FilmTest test;
+  RegionTest test;
   bool usable = true;  // enough samples carry the light of both
-  double p = 1;        // the larger one of Welch's and of what rare bright samples leave possible
+  double p = 1;        // corrected; the larger one of Welch's and of what rare bright samples leave possible
 };
 
-std::vector<Weighed> weigh(const Film& reference, const Film& other, double peak_reference, double peak_other) {
-  std::vector<Weighed> all;
-  const auto taken = [](const Film& film, const PixelBounds& r) {
-    double n = 0;
-    for (int y = r.y0; y < r.y1; ++y)
-      for (int x = r.x0; x < r.x1; ++x) n += film.total(x, y).count;
-    return n;
-  };
-  for (FilmTest& t : compare_films(reference, other)) {
-    Weighed w{t};
-    const bool both_dark = t.a.mean() == 0.0 && t.b.mean() == 0.0;
-    w.usable = both_dark || std::min(effective_samples(reference, t.region), effective_samples(other, t.region)) >=
-                                kEffectiveSamples;
-    const bool low_other = t.b.mean() < t.a.mean();
-    const double chance =
-        low_other ? chance_of_low_mean(t.b.mean(), t.a.mean(), taken(other, t.region), peak_other)
-                  : chance_of_low_mean(t.a.mean(), t.b.mean(), taken(reference, t.region), peak_reference);
-    w.p = std::max(t.result.p_value, chance);
-    all.push_back(std::move(w));
+struct Weighing {
+  std::vector<Weighed> regions;  // the whole image in R, G and B first
+  std::vector<HistogramTest> histograms;
+};
+
+double samples_in(const Film& film, const PixelBounds& r) {
+  double n = 0;
+  for (int y = r.y0; y < r.y1; ++y)
+    for (int x = r.x0; x < r.x1; ++x) n += film.total(x, y).count;
+  return n;
+}
+
+Weighing weigh(const Film& reference, const Film& other, double peak_reference, double peak_other, double level) {
+  Verdict verdict = compare(make_estimate(reference), make_estimate(other), {.level = level});
+  std::vector<RegionTest> tests = std::move(verdict.image);
+  tests.insert(tests.end(), verdict.blocks.begin(), verdict.blocks.end());
+  const PixelBounds& crop = reference.settings().crop;
+  Weighing all{{}, std::move(verdict.histograms)};
+  for (RegionTest& t : tests) {
+    t.region = {t.region.x0 + crop.x0, t.region.y0 + crop.y0, t.region.x1 + crop.x0, t.region.y1 + crop.y0};
+    const bool both_dark = t.a == 0.0 && t.b == 0.0;
+    const bool usable = both_dark || std::min(effective_samples(reference, t.region),
+                                              effective_samples(other, t.region)) >= kEffectiveSamples;
+    const double chance = t.b < t.a ? chance_of_low_mean(t.b, t.a, samples_in(other, t.region), peak_other)
+                                    : chance_of_low_mean(t.a, t.b, samples_in(reference, t.region), peak_reference);
+    const double p = std::max(t.corrected, std::min(1.0, chance * static_cast<double>(tests.size())));
+    all.regions.push_back({t, usable, p});
   }
   return all;
 }
 
 // The smallest relative error of the image's mean that would be seen; infinite when it would have to be over 1.
-double smallest_visible(const std::vector<Weighed>& tests, double level) {
+double smallest_visible(const std::vector<Weighed>& regions, double level) {
   double worst = 0;
-  for (size_t i = 0; i < kImageChannelTests; ++i) {
-    const FilmTest& t = tests[i].test;
-    const double mean = std::max(t.a.mean(), t.b.mean());
+  for (size_t i = 0; i < kChannels; ++i) {
+    const RegionTest& t = regions[i].test;
+    const double mean = std::max(t.a, t.b);
     if (mean == 0.0) continue;
-    const double error = std::sqrt(t.a.variance_of_mean() + t.b.variance_of_mean());
     double visible = HUGE_VAL;
-    for (double e = 1.0; e > 1e-4 && would_be_seen(e, mean, error, t.result.dof, level); e *= 0.8) visible = e;
+    for (double e = 1.0; e > 1e-4 && would_be_seen(e, mean, t.error, t.result.dof, level); e *= 0.9) visible = e;
     worst = std::max(worst, visible);
   }
   return worst;
 }
 
-// The film's luminance and the other's beside the test of each block.
-CheckMap picture_of(const Film& reference, const Film& other, const std::vector<Weighed>& tests) {
+// The film's luminance and the other's beside the worst test of each block.
+CheckMap picture_of(const Film& reference, const Film& other, const std::vector<Weighed>& regions) {
   const PixelBounds& crop = reference.settings().crop;
   CheckMap map;
   map.width = crop.width(), map.height = crop.height();
@@ -139,20 +148,16 @@ CheckMap picture_of(const Film& reference, const Film& other, const std::vector<
       map.sampled.push_back(static_cast<float>(other.total(x, y).mean_radiance()[3]));
       map.expected.push_back(static_cast<float>(reference.total(x, y).mean_radiance()[3]));
     }
-  for (const Weighed& w : tests) {
-    const PixelBounds& r = w.test.region;
-    if (r == crop || !w.usable) continue;
+  for (size_t i = kChannels; i < regions.size(); ++i) {
+    const PixelBounds& r = regions[i].test.region;
+    const auto z = static_cast<float>(regions[i].test.result.statistic);
     for (int y = r.y0; y < r.y1; ++y)
-      for (int x = r.x0; x < r.x1; ++x)
-        map.sigmas[static_cast<size_t>((y - crop.y0) * map.width + x - crop.x0)] =
-            -static_cast<float>(w.test.result.statistic);
+      for (int x = r.x0; x < r.x1; ++x) {
+        float& sigmas = map.sigmas[static_cast<size_t>((y - crop.y0) * map.width + x - crop.x0)];
+        if (regions[i].usable && std::abs(z) > std::abs(sigmas)) sigmas = z;
+      }
   }
   return map;
-}
-
-std::string sure_text(const FilmTest& t, double p, size_t tests) {
-  return fmt::format("{}: {:.5g} against {:.5g}, {:+.2f} %, p = {:.1e} ({:.1e} after correction for {} tests)", t.what,
-                     t.b.mean(), t.a.mean(), 100 * (t.b.mean() / t.a.mean() - 1), p, sidak_combined(p, tests), tests);
 }
 
 // All that stays the same while a scene is verified.
@@ -200,15 +205,14 @@ class SceneVerifier {
     scene_ = prepared->scene;
     const Param* depth = prepared->settings.integrator.find("maxdepth");
     estimators_ = estimators_for(*scene_, depth && depth->integers.size() == 1 ? depth->integers[0] : 5);
-    tests_ = (estimators_.size() - 1) * film_test_count(size_.first, size_.second);
-    level_ = bonferroni_level(options_.family_level, tests_);
+    level_ = bonferroni_level(options_.family_level, estimators_.size() - 1);
     peaks_ = find_sample_peaks(*scene_, size_.first, size_.second);
     return true;
   }
 
   std::optional<FinishedRender> render(const Estimator& e, uint64_t run, const std::string& what) {
-    auto prepared = prepare_render(description_, overrides_for(e, options_, size_, run, estimators_.size()),
-                                   diagnostics_, scene_);
+    auto prepared =
+        prepare_render(description_, overrides_for(e, options_, size_, run, estimators_.size()), diagnostics_, scene_);
     if (!prepared) return {};
     const double step = 1.0 / static_cast<double>(estimators_.size()), from = static_cast<double>(run % 1000) * step;
     ProgressObserver observer(progress_, what, from, from + step);
@@ -234,8 +238,7 @@ class SceneVerifier {
     const auto film = render(e, i, e.name);
     if (!film) return false;
     describe(reference, *film, report);
-    std::vector<Weighed> tests = weigh(reference.film, film->film, peak_of(estimators_[0]), peak_of(e));
-    judge(tests, report);
+    judge(weigh(reference.film, film->film, peak_of(estimators_[0]), peak_of(e), level_), report);
     if (report.verdict != Agreement::kDisagrees || stop_) return true;
 
     // Once more, with four times the samples and other seeds: chance does not strike twice.
@@ -243,53 +246,59 @@ class SceneVerifier {
     const auto again = render(e, 1000 + i, e.name + ", again");
     if (!second_reference_ || !again) return false;
     describe(*second_reference_, *again, report);
-    tests = weigh(second_reference_->film, again->film, peak_of(estimators_[0]), peak_of(e));
-    judge(tests, report);
+    const Weighing second = weigh(second_reference_->film, again->film, peak_of(estimators_[0]), peak_of(e), level_);
+    judge(second, report);
     if (report.verdict == Agreement::kDisagrees)
-      report.map = std::make_shared<const CheckMap>(picture_of(second_reference_->film, again->film, tests));
+      report.map = std::make_shared<const CheckMap>(picture_of(second_reference_->film, again->film, second.regions));
     return true;
   }
 
-  void judge(const std::vector<Weighed>& tests, EstimatorReport& report) const {
+  void judge(const Weighing& weighing, EstimatorReport& report) const {
     report.failed.clear();
     report.left_out = report.tests = 0;
-    double smallest = 1;
+    report.smallest_p = 1;
     const Weighed* excused = nullptr;  // fails, but rare samples may be missing
-    const Weighed* worst = nullptr;
-    for (const Weighed& w : tests) {
+    std::string reason;                // of failing
+    for (const Weighed& w : weighing.regions) {
       ++(w.usable ? report.tests : report.left_out);
-      if (w.test.result.p_value < level_ && (!w.usable || w.p >= level_) && !excused) excused = &w;
+      if (w.test.corrected < level_ && (!w.usable || w.p >= level_) && !excused) excused = &w;
       if (!w.usable) continue;
-      smallest = std::min(smallest, w.p);
-      if (w.p >= level_) continue;
-      report.failed.push_back(w.test);
-      if (!worst || w.p < worst->p) worst = &w;
+      if (w.p < report.smallest_p) {
+        report.smallest_p = w.p;
+        if (w.p < level_) reason = "most surely " + describe_test(w.test) + fmt::format(", p = {:.1e}", w.p);
+      }
+      if (w.p < level_) report.failed.push_back(w.test);
     }
     std::sort(report.failed.begin(), report.failed.end(),
-              [](const FilmTest& a, const FilmTest& b) { return a.result.p_value < b.result.p_value; });
-    report.smallest_p = sidak_combined(smallest, std::max<size_t>(report.tests, 1));
-    const double visible = smallest_visible(tests, level_);
-    if (worst) {
+              [](const RegionTest& a, const RegionTest& b) { return a.result.p_value < b.result.p_value; });
+    // Rare samples spoil the histogram too.
+    for (const HistogramTest& h : weighing.histograms) {
+      if (report.left_out > 0 || excused || h.corrected >= report.smallest_p) continue;
+      report.smallest_p = h.corrected;
+      if (h.corrected < level_ && report.failed.empty())
+        reason = fmt::format("by little all over the image: {} of {} p-values of blocks are below {}, p = {:.1e}",
+                             h.below, h.blocks, h.threshold, h.corrected);
+    }
+    const double visible = smallest_visible(weighing.regions, level_ / static_cast<double>(kChannels));
+    const RegionTest& image = weighing.regions[1].test;
+    report.verdict = Agreement::kCannotTell;
+    if (!reason.empty()) {
       report.verdict = Agreement::kDisagrees;
-      report.reason = fmt::format("in {} of {} tests; most surely {}", report.failed.size(), report.tests,
-                                  sure_text(worst->test, worst->p, tests_));
-    } else if (tests[0].test.a.mean() == 0.0 && tests[0].test.b.mean() == 0.0) {
-      report.verdict = Agreement::kCannotTell;
+      report.reason = reason;
+    } else if (image.a == 0.0 && image.b == 0.0) {
       report.reason = "the image is black";
     } else if (excused) {
-      report.verdict = Agreement::kCannotTell;
-      report.reason = fmt::format("{} differs by {:+.1f} %, but rests on rare bright samples of which too few were met",
-                                  excused->test.what, 100 * (excused->test.b.mean() / excused->test.a.mean() - 1));
+      report.reason = describe_test(excused->test) + ", but it rests on rare bright samples of which too few were met";
     } else if (visible > options_.visible) {
-      report.verdict = Agreement::kCannotTell;
-      report.reason = std::isfinite(visible)
-                          ? fmt::format("too noisy: errors of the image below {:.0f} % would not be seen", 100 * visible)
-                          : std::string("too noisy: not even an image that is twice as bright would be seen");
+      report.reason =
+          std::isfinite(visible)
+              ? fmt::format("too noisy: errors of the image below {:.0f} % would not be seen", 100 * visible)
+              : std::string("too noisy: not even an image twice as bright would be seen");
     } else {
       report.verdict = Agreement::kAgrees;
       report.reason = fmt::format("an error of the image of {:.1f} % would be seen", 100 * visible);
       if (report.left_out > 0)
-        report.reason += fmt::format("; {} blocks where light is rare are left out", report.left_out);
+        report.reason += fmt::format("; {} tests of blocks where light is rare are left out", report.left_out);
     }
   }
 
@@ -302,7 +311,6 @@ class SceneVerifier {
   std::pair<int, int> size_;
   std::shared_ptr<const Scene> scene_;
   std::vector<Estimator> estimators_;
-  uint64_t tests_ = 0;
   double level_ = 0;
   SamplePeaks peaks_;
   std::optional<FinishedRender> second_reference_;
@@ -313,6 +321,12 @@ class SceneVerifier {
 bool SceneVerification::disagrees() const {
   return std::any_of(estimators.begin(), estimators.end(),
                      [](const EstimatorReport& e) { return e.verdict == Agreement::kDisagrees; });
+}
+
+std::string describe_test(const RegionTest& t) {
+  const PixelBounds& r = t.region;
+  return fmt::format("{} in {},{} to {},{}: {:.5g} against {:.5g} ({:+.2f} %)", "RGB"[t.channel], r.x0, r.y0, r.x1,
+                     r.y1, t.b, t.a, 100 * (t.b / t.a - 1));
 }
 
 std::string_view agreement_name(Agreement a) {

@@ -1,5 +1,5 @@
-// A scene as its own test: rendered by every estimator that applies, which must agree. Welch tests compare each with the
-// path tracer's usual way (mis, Sobol), over the whole image and blocks of 8 x 8 pixels.
+// A scene as its own test: rendered by every estimator that applies, which must agree. compare() holds each against the
+// path tracer's usual way (mis, Sobol).
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 #include "render/settings.h"
 #include "verify/check.h"
-#include "verify/compare_films.h"
+#include "verify/compare.h"
 
 namespace etd {
 
@@ -20,9 +20,9 @@ struct SceneVerifyOptions {
   uint32_t spp = 256;                       // of each estimator
   std::optional<double> seconds;            // for all of them together; then no number of samples is set
   uint64_t seed = 1;
-  int threads = 0;              // 0: all cores
-  double family_level = 1e-4;   // probability of any false alarm among all tests
-  double visible = 0.05;        // an error of this share of the image's mean must be visible to call it agreement
+  int threads = 0;             // 0: all cores
+  double family_level = 1e-4;  // probability of any false alarm among all tests
+  double visible = 0.05;       // an error of this share of the image's mean must be visible to call it agreement
   std::vector<std::pair<std::string, std::string>> set;  // as RenderOverrides::set, for all estimators
 };
 
@@ -35,6 +35,9 @@ enum class Agreement : uint8_t {
 };
 std::string_view agreement_name(Agreement a);
 
+// "G in 8,16 to 16,24: 0.31 against 0.3 (+3.33 %)".
+std::string describe_test(const RegionTest& t);
+
 struct EstimatorReport {
   std::string name;
   Agreement verdict = Agreement::kNotApplicable;
@@ -44,7 +47,7 @@ struct EstimatorReport {
   double mean = 0, difference = 0, error = 0;  // of G; the two others relative to the reference's mean
   double smallest_p = 1;                       // of all its tests, corrected for their number
   size_t tests = 0, left_out = 0;              // blocks where too few samples carry the light are left out
-  std::vector<FilmTest> failed;                // in the second run, worst first
+  std::vector<RegionTest> failed;              // in the second run, worst first
   std::shared_ptr<const CheckMap> map;         // where it disagrees: its image, the reference's, and their difference
 };
 

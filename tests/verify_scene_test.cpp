@@ -1,0 +1,111 @@
+// Scenes as their own tests: agreement where there is, and no verdict where samples cannot give one.
+#include "verify/verify_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "formats/pbrt/reader.h"
+#include "render_helper.h"
+#include "verify/sample_peaks.h"
+
+namespace etd {
+namespace {
+
+const std::atomic<bool> kGoOn{false};
+
+std::optional<SceneVerification> verify(const std::string& text, uint32_t spp, Diagnostics& diagnostics) {
+  SceneVerifyOptions options;
+  options.spp = spp;
+  return verify_scene(
+      read_pbrt_text(text, "test", source_path("tests/scenes"), diagnostics), options, diagnostics,
+      [](double, const std::string&) {}, kGoOn);
+}
+
+std::map<std::string, EstimatorReport> reports(const std::string& text, uint32_t spp) {
+  Diagnostics diagnostics;
+  const auto v = verify(text, spp, diagnostics);
+  EXPECT_TRUE(v) << diagnostics.format_all();
+  std::map<std::string, EstimatorReport> all;
+  if (!v) return all;
+  EXPECT_FALSE(v->disagrees()) << scene_table(*v);
+  for (const EstimatorReport& e : v->estimators) all[e.name] = e;
+  return all;
+}
+
+std::string scene(const std::string& lights, const std::string& surface) {
+  return R"(
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+Integrator "path" "integer maxdepth" 3
+LookAt 0 -5 2  0 0 0.5  0 0 1
+Camera "perspective" "float fov" 45
+WorldBegin
+)" + lights +
+         R"(
+Material "diffuse"
+Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+)" + surface +
+         R"(
+Translate 0 0 1
+Shape "sphere"
+)";
+}
+const std::string kSky = R"(LightSource "infinite" "rgb L" [ 0.3 0.4 0.6 ])";
+const std::string kLamp = R"(
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 4 3 2 ]
+Shape "trianglemesh" "point3 P" [ -2 -2 4  2 -2 4  2 2 4  -2 2 4 ] "integer indices" [ 0 2 1 0 3 2 ]
+AttributeEnd)";
+const std::string kSun = R"(
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 100000 90000 80000 ]
+Translate 30 -20 60
+Shape "sphere" "float radius" 0.3
+AttributeEnd)";
+
+TEST(VerifyScene, AllEstimatorsAgree) {
+  const auto all = reports(scene(kSky + kLamp, R"(Material "conductor" "float roughness" 0.3)"), 512);
+  EXPECT_EQ(all.size(), 8u);
+  for (const auto& [name, e] : all)
+    EXPECT_EQ(e.verdict, name == "mis" ? Agreement::kReference : Agreement::kAgrees) << name << ": " << e.reason;
+}
+
+// Most paths never meet the sun, and their mean is much too low with a small spread: no reason to call them wrong.
+TEST(VerifyScene, RareBrightLightIsNoDisagreement) {
+  const auto all = reports(scene(kSky + kSun, ""), 64);
+  EXPECT_EQ(all.at("naive").verdict, Agreement::kCannotTell);
+  EXPECT_LT(all.at("naive").difference, -0.1);
+}
+
+TEST(VerifyScene, SaysWhatDoesNotApply) {
+  const auto all = reports(scene(R"(LightSource "point" "point3 from" [ 0 -3 4 ] "rgb I" [ 9 9 9 ])", ""), 64);
+  EXPECT_EQ(all.at("naive").verdict, Agreement::kNotApplicable);
+  EXPECT_EQ(all.at("lights all alike").verdict, Agreement::kNotApplicable);
+  EXPECT_NE(all.at("next_event").verdict, Agreement::kNotApplicable);
+}
+
+TEST(VerifyScene, NothingIsProvedByABlackImage) {
+  for (const auto& [name, e] : reports(scene("", ""), 32)) {
+    if (e.verdict == Agreement::kReference || e.verdict == Agreement::kNotApplicable) continue;
+    EXPECT_EQ(e.verdict, Agreement::kCannotTell) << name;
+  }
+}
+
+TEST(VerifyScene, ReportsBrokenScenes) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(verify("Film \"rgb\"\nWorldBegin\nMaterial \"difuse\"\n", 32, diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
+// Rare samples of one size: that none of n is met has the probability (1 - q)^n, which the bound must not undercut.
+TEST(ChanceOfLowMean, IsAnUpperBound) {
+  for (const double q : {1e-3, 1e-2, 0.1})
+    for (const double n : {10.0, 100.0, 1000.0})
+      for (const double peak : {1.0, 50.0})
+        EXPECT_GE(chance_of_low_mean(0.0, q * peak, n, peak), std::pow(1.0 - q, n)) << q << ' ' << n;
+  EXPECT_EQ(chance_of_low_mean(2.0, 1.0, 10, 1), 1.0);
+  EXPECT_LT(chance_of_low_mean(0.9, 1.0, 1e6, 2), 1e-100);
+}
+
+}  // namespace
+}  // namespace etd
