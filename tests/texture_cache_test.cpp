@@ -96,8 +96,8 @@ TEST(TextureCache, NoLookupCanTell) {
   HashStream rng(9);
   for (int i = 0; i < 40; ++i) {
     const auto wide = [&] { return std::exp2(-10 * rng.next_float()) - 0.01f; };
-    const TexCoord at{{4 * rng.next_float() - 2, 4 * rng.next_float() - 2}, {}, {}, {}, {}, {wide(), wide()},
-                      {wide(), -wide()}};
+    const TexCoord at{
+        {4 * rng.next_float() - 2, 4 * rng.next_float() - 2}, {}, {}, {}, {}, {wide(), wide()}, {wide(), -wide()}};
     for (size_t k = 0; k < a.size(); ++k) {
       const Spectrum x = in_memory.table.eval(a[k], at), y = in_tiles.table.eval(b[k], at);
       for (int c = 0; c < 3; ++c) ASSERT_EQ(x[c], y[c]) << k;
@@ -130,7 +130,8 @@ TEST(TextureCache, FilesAreUsedAgainUntilTheImageChanges) {
   const auto first_value = [&] {
     Textures t;
     t.memory = {1, cache};
-    const SpectrumSource s = t.add("s", use_of("imagemap", {text("filename", image.string()), text("filter", "point")}));
+    const SpectrumSource s =
+        t.add("s", use_of("imagemap", {text("filename", image.string()), text("filter", "point")}));
     EXPECT_FALSE(t.diagnostics.has_errors()) << t.diagnostics.format_all();
     return t.at(s, 0.001f, 0.999f)[0];
   };

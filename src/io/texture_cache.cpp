@@ -35,6 +35,7 @@ OIIO::ImageSpec spec_of(const Image& level) {
   for (size_t c = 0; c < spec.channelnames.size(); ++c) spec.channelnames[c] = fmt::format("channel{}", c);
   spec["oiio:UnassociatedAlpha"] = 1;
   spec["compression"] = "zip:1";
+  spec["tiff:half"] = 1;  // otherwise halves become floats
   return spec;
 }
 
@@ -46,7 +47,7 @@ bool write_tiles(OIIO::ImageOutput& out, const Image& level) {
       std::fill(tile.begin(), tile.end(), std::byte{0});
       for (int row = 0; row < std::min(kTile, level.height() - y); ++row)
         level.copy_row(x, y + row, std::min(kTile, level.width() - x), &tile[static_cast<size_t>(row) * kTile * texel]);
-      if (!out.write_tile(x, y, 0, out.spec().format, tile.data())) return false;
+      if (!out.write_tile(x, y, 0, stored_type(level.format().kind()), tile.data())) return false;
     }
   return true;
 }
@@ -62,8 +63,7 @@ std::string write_tiled_levels(const std::filesystem::path& path, const std::fun
     if (out == nullptr) return OIIO::geterror();
     auto mode = OIIO::ImageOutput::Create;
     while (const Image* level = next()) {
-      if (!out->open(file.path().string(), spec_of(*level), mode) || !write_tiles(*out, *level))
-        return out->geterror();
+      if (!out->open(file.path().string(), spec_of(*level), mode) || !write_tiles(*out, *level)) return out->geterror();
       mode = OIIO::ImageOutput::AppendSubimage;
     }
     if (!out->close()) return out->geterror();

@@ -53,7 +53,8 @@ class ImageFiltering {
 
   Spectrum value() const {
     if (at_.filter == ImageFilter::kPoint)
-      return texel(0, static_cast<int>(std::floor(at_.st.x * width(0))), static_cast<int>(std::floor(at_.st.y * height(0))));
+      return texel(0, static_cast<int>(std::floor(at_.st.x * width(0))),
+                   static_cast<int>(std::floor(at_.st.y * height(0))));
     if (at_.filter == ImageFilter::kTrilinear) return trilinear();
     return at_.filter == ImageFilter::kEwa ? ewa() : bilinear(0);
   }

@@ -73,7 +73,8 @@ std::optional<Image> ImageStore::read(const Request& r, Diagnostics& diagnostics
 TextureImage ImageStore::in_memory(const Request& r, Diagnostics& diagnostics) {
   const auto [it, is_new] = finest_.try_emplace({r.path.string(), r.encoding_text}, nullptr);
   if (is_new)
-    if (std::optional<Image> image = read(r, diagnostics)) it->second = std::make_shared<const Image>(std::move(*image));
+    if (std::optional<Image> image = read(r, diagnostics))
+      it->second = std::make_shared<const Image>(std::move(*image));
   if (!it->second) return {};
   return TextureImage(it->second, r.levels ? coarser_levels(*it->second, *r.levels) : std::vector<Image>());
 }

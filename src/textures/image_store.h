@@ -13,7 +13,7 @@
 namespace etd {
 
 struct TextureMemory {
-  size_t limit = half_of_the_machine();                     // bytes of texels in memory
+  size_t limit = half_of_the_machine();                       // bytes of texels in memory
   std::filesystem::path cache_folder = usual_cache_folder();  // of the files of tiles
 
   static size_t half_of_the_machine();

@@ -33,8 +33,7 @@ std::vector<Taps> taps_of(int fine, int coarse) {
     const double center = (i + 0.5) * ratio;
     Taps taps{static_cast<int>(std::floor(center - 2 * ratio)), {}};
     for (int j = taps.first; j < center + 2 * ratio; ++j)
-      taps.weights.push_back(
-          static_cast<float>(integral((j + 1 - center) / ratio) - integral((j - center) / ratio)));
+      taps.weights.push_back(static_cast<float>(integral((j + 1 - center) / ratio) - integral((j - center) / ratio)));
     all.push_back(std::move(taps));
   }
   return all;
