@@ -12,6 +12,7 @@
 #include "render/interrupt.h"
 #include "render/provenance.h"
 #include "render/session.h"
+#include "scene/scene.h"
 #include "watching.h"
 
 namespace etd::cli {
@@ -141,6 +142,12 @@ int render_scene(const Arguments& args) {
   print_summary(*prepared, finished.result);
   report_invalid_samples(*prepared, finished.result);
   watchers.end(finished.film);
+  const TextureCache* cache = prepared->scene->textures.cache.get();
+  if (cache && !cache->read_error().empty()) {
+    fmt::print(stderr, "etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
+               cache->read_error());
+    return kInternalError;
+  }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
   if (!written) return kInternalError;
   return args.strict && finished.result.invalid.total() > 0 ? kInvalidSamples : kOk;

@@ -53,8 +53,12 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   ThreadLimit threads(settings.threads);  // building the accelerator is parallel too
   prepared.scene = std::move(compiled);
   if (!prepared.scene)
-    prepared.scene = threads.run(
-        [&] { return compile(description, {.width = settings.width, .height = settings.height}, diagnostics); });
+    prepared.scene = threads.run([&] {
+      return compile(
+          description,
+          {.width = settings.width, .height = settings.height, .spp = settings.spp, .textures = settings.textures},
+          diagnostics);
+    });
   if (diagnostics.has_errors() || !prepared.scene) return {};
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
@@ -99,6 +103,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
+  stats.texture_bytes = prepared.scene->textures.image_bytes();
   count_pixels(finished.film, stats);
   return stats;
 }

@@ -56,6 +56,7 @@ struct SceneDescription {
 
   // The readers fill these with their format's defaults when the file does not say.
   ModelUse camera, film, filter, sampler, integrator;
+  bool filter_textures = true;    // over the footprint of a pixel, where they can be; otherwise at points
   TransformPair camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
   // When what moves is where its two transforms say, and deforming meshes begin and end; before and after, all rests.
   double motion_start = 0, motion_end = 1;  // s

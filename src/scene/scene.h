@@ -8,7 +8,7 @@
 
 #include "accel/accelerator.h"
 #include "accel/surface.h"
-#include "cameras/camera.h"
+#include "cameras/footprint.h"
 #include "core/bounds.h"
 #include "filters/filter.h"
 #include "light_sampling/light_sampler.h"
@@ -93,6 +93,7 @@ class Scene {
   LightData light_data;
   LightSampler light_sampler;
   Camera camera;
+  PixelFootprint footprint;
   CameraData camera_data;
   Filter filter;
   std::unique_ptr<Accelerator> accelerator;
@@ -103,6 +104,8 @@ class Scene {
  private:
   // Where textures are looked up at a point, without a footprint.
   static TexCoord point_coord(const SurfacePoint& s) { return {s.uv, s.p, s.ng}; }
+  // The same with the footprint of a pixel.
+  TexCoord tex_coord(const SurfacePoint& s) const;
   bool is_hole(const Ray& ray, const Hit& hit) const;
   bool find_solid(Ray ray, Hit& hit) const;
 };
