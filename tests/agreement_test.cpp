@@ -31,7 +31,6 @@ struct Scene {
   uint32_t spp_naive, spp_next_event, spp_mis;
   uint32_t spp_heuristics = 0, spp_uniform = 0;  // of the other heuristics and of lights all alike; 0: not compared
 };
-<<<<<<< ours
 const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},
                          {"textured_room", 1024, 256, 256, 0, 256},
                          {"sky_instances", 512, 512, 128, 256, 256},
@@ -39,11 +38,6 @@ const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},
                          {"lamps", 2048, 1024, 1024, 0, 1024},
                          {"moving_lamps", 1024, 512, 512},
                          {"window_room", 2048, 384, 384}};
-=======
-const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},  {"textured_room", 1024, 256, 256, 0, 256},
-                         {"sky_instances", 512, 512, 128, 256, 256}, {"glass_caustic", 1024, 512, 512, 0, 0},
-                         {"lamps", 2048, 1024, 1024, 0, 1024},       {"window_room", 2048, 384, 384, 0, 0}};
->>>>>>> theirs
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
