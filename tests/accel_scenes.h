@@ -8,7 +8,7 @@ namespace etd {
 inline Quadric ellipsoid(const Transform& t) { return Quadric(t, false); }
 
 inline GeometryInstance instance_of(uint32_t group, const Transform& t) {
-  return {group, Affine(t.matrix()), Affine(t.inverse_matrix())};
+  return {{Affine(t.matrix()), Affine(t.inverse_matrix())}, group};
 }
 
 // The cube [-1, 1]^3 under `t`, 12 triangles that share 8 vertices, winding outwards for an unmirrored map.

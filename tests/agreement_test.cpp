@@ -29,7 +29,8 @@ struct Scene {
 };
 const Scene kScenes[] = {{"conductor_box", 1024, 512, 256}, {"textured_room", 1024, 256, 256},
                          {"sky_instances", 512, 512, 128},  {"glass_caustic", 1024, 512, 512},
-                         {"lamps", 2048, 1024, 1024},       {"window_room", 2048, 384, 384}};
+                         {"lamps", 2048, 1024, 1024},       {"window_room", 2048, 384, 384},
+                         {"moving_lamps", 1024, 512, 512}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
@@ -80,6 +81,7 @@ TEST(StatisticalAgreement, SkyAndInstances) { expect_all_agree(kScenes[2]); }
 TEST(StatisticalAgreement, GlassCaustic) { expect_all_agree(kScenes[3]); }
 TEST(StatisticalAgreement, Lamps) { expect_all_agree(kScenes[4]); }
 TEST(StatisticalAgreement, WindowRoom) { expect_all_agree(kScenes[5]); }
+TEST(StatisticalAgreement, MovingLamps) { expect_all_agree(kScenes[6]); }
 
 TEST(SlowAgreement, ConductorBox) { expect_all_agree(kScenes[0], 32); }
 TEST(SlowAgreement, TexturedRoom) { expect_all_agree(kScenes[1], 32); }
@@ -87,6 +89,7 @@ TEST(SlowAgreement, SkyAndInstances) { expect_all_agree(kScenes[2], 32); }
 TEST(SlowAgreement, GlassCaustic) { expect_all_agree(kScenes[3], 32); }
 TEST(SlowAgreement, Lamps) { expect_all_agree(kScenes[4], 32); }
 TEST(SlowAgreement, WindowRoom) { expect_all_agree(kScenes[5], 32); }
+TEST(SlowAgreement, MovingLamps) { expect_all_agree(kScenes[6], 32); }
 
 TEST(StatisticalAgreement, FindsAPlantedErrorOfOnePercent) {
   const Scene& scene = kScenes[2];

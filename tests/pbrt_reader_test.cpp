@@ -40,7 +40,7 @@ TEST(PbrtReader, FillsTheDefaultsOfTheFormat) {
   EXPECT_EQ(r.scene.filter.model, "gaussian");
   EXPECT_EQ(r.scene.sampler.model, "sobol");
   EXPECT_EQ(r.scene.integrator.model, "path");
-  EXPECT_TRUE(r.scene.camera_to_world.is_identity());
+  EXPECT_TRUE(r.scene.camera_to_world.start.is_identity());
 }
 
 TEST(PbrtReader, ReadsParametersOfAllTypesInBothBracketStyles) {
@@ -77,11 +77,11 @@ TEST(PbrtReader, CameraToWorldInvertsTheTransformAtTheCamera) {
       "LookAt 1 2 3  1 2 0  0 1 0\nCamera \"perspective\" \"float fov\" 30\nWorldBegin\n"
       "CoordSysTransform \"camera\"\nShape \"sphere\"\nCoordSysTransform \"world\"\nShape \"sphere\"");
   EXPECT_EQ(r.messages(), "");
-  expect_near(apply(r.scene.camera_to_world, {0, 0, 0}), {1, 2, 3});
-  expect_near(apply(r.scene.camera_to_world, {0, 0, 2}), {1, 2, 1});
+  expect_near(apply(r.scene.camera_to_world.start, {0, 0, 0}), {1, 2, 3});
+  expect_near(apply(r.scene.camera_to_world.start, {0, 0, 2}), {1, 2, 1});
   ASSERT_EQ(r.scene.shapes.size(), 2u);
-  expect_near(apply(r.scene.shapes[0].to_world, {0, 0, 2}), {1, 2, 1});
-  EXPECT_TRUE(r.scene.shapes[1].to_world.is_identity());
+  expect_near(apply(r.scene.shapes[0].to_world.start, {0, 0, 2}), {1, 2, 1});
+  EXPECT_TRUE(r.scene.shapes[1].to_world.start.is_identity());
 }
 
 TEST(PbrtReader, TransformsComposeFromTheRight) {
@@ -103,10 +103,10 @@ CoordSysTransform "here"
 Shape "sphere")");
   EXPECT_EQ(r.messages(), "");
   ASSERT_EQ(r.scene.shapes.size(), 4u);
-  expect_near(apply(r.scene.shapes[0].to_world, {1, 0, 0}), {1, 4, 3});
-  EXPECT_TRUE(r.scene.shapes[1].to_world.is_identity());
-  expect_near(apply(r.scene.shapes[2].to_world, {1, 1, 1}), {7, 8, 9});
-  expect_near(apply(r.scene.shapes[3].to_world, {1, 1, 1}), {6, 7, 8});
+  expect_near(apply(r.scene.shapes[0].to_world.start, {1, 0, 0}), {1, 4, 3});
+  EXPECT_TRUE(r.scene.shapes[1].to_world.start.is_identity());
+  expect_near(apply(r.scene.shapes[2].to_world.start, {1, 1, 1}), {7, 8, 9});
+  expect_near(apply(r.scene.shapes[3].to_world.start, {1, 1, 1}), {6, 7, 8});
 }
 
 TEST(PbrtReader, AttributesAreSavedAndRestored) {
@@ -129,8 +129,8 @@ Shape "sphere")");
   EXPECT_EQ(r.scene.shapes[0].material, 1);
   EXPECT_EQ(r.scene.shapes[0].area_light, 0);
   EXPECT_TRUE(r.scene.shapes[0].reverse_orientation);
-  EXPECT_FALSE(r.scene.shapes[1].to_world.is_identity());
-  EXPECT_TRUE(r.scene.shapes[2].to_world.is_identity());
+  EXPECT_FALSE(r.scene.shapes[1].to_world.start.is_identity());
+  EXPECT_TRUE(r.scene.shapes[2].to_world.start.is_identity());
   EXPECT_EQ(r.scene.shapes[3].material, 0);
   EXPECT_EQ(r.scene.shapes[3].area_light, -1);
   EXPECT_FALSE(r.scene.shapes[3].reverse_orientation);
@@ -161,13 +161,13 @@ ObjectInstance "one")");
   ASSERT_EQ(r.scene.textures.size(), 2u);
   ASSERT_EQ(r.scene.objects.size(), 2u);
   EXPECT_EQ(r.scene.objects[0].shapes.size(), 1u);
-  expect_near(apply(r.scene.objects[0].shapes[0].to_world, {0, 0, 0}), {1, 0, 0});
+  expect_near(apply(r.scene.objects[0].shapes[0].to_world.start, {0, 0, 0}), {1, 0, 0});
   ASSERT_EQ(r.scene.objects[1].instances.size(), 1u);
   EXPECT_EQ(r.scene.objects[1].instances[0].object, 0);
   ASSERT_EQ(r.scene.instances.size(), 2u);
   EXPECT_EQ(r.scene.instances[0].object, 1);
   EXPECT_EQ(r.scene.instances[1].object, 0);
-  expect_near(apply(r.scene.instances[1].to_world, {0, 0, 0}), {0, 1, 0});
+  expect_near(apply(r.scene.instances[1].to_world.start, {0, 0, 0}), {0, 1, 0});
 }
 
 TEST(PbrtReader, AttributeGivesDefaultParameters) {
@@ -224,7 +224,7 @@ TransformTimes 0 1
 ActiveTransform StartTime
 ActiveTransform All
 MediumInterface "" ""
-Camera "spherical" "float lensradius" 0.5 "float focaldistance" 10 "float shutteropen" 0 "float shutterclose" 1
+Camera "spherical" "float lensradius" 0.5 "float focaldistance" 10
 Film "rgb" "float iso" 100 "string sensor" "cie1931" "float diagonal" 35 "float whitebalance" 0
 WorldBegin
 Shape "trianglemesh" "integer faceIndices" 1
@@ -254,44 +254,32 @@ Texture "m" "spectrum" "ptex" "string filename" "m.ptx")",
   EXPECT_EQ(r.scene.textures[0].use.find("value")->numbers, std::vector<double>{0.5});
 }
 
-TEST(PbrtReader, MovingThingsAreReportedOnceEach) {
-  const Reading r("WorldBegin\nActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\nShape \"sphere\"", true);
-  EXPECT_EQ(r.diagnostics.all().size(), 1u);
-  EXPECT_NE(r.messages().find("motion blur"), std::string::npos);
-  EXPECT_TRUE(r.scene.shapes[0].to_world.is_identity());
-}
-
-class PbrtFiles : public ::testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder_.path() / "parts"); }
-  TempFolder folder_;
-};
-
-TEST_F(PbrtFiles, IncludeIsTextualAndImportKeepsItsStateToItself) {
-  folder_.write("main.pbrt",
-                "WorldBegin\nInclude \"parts/a.pbrt\" Shape \"sphere\"\nImport \"parts/b.pbrt\"\nShape \"sphere\"\n");
-  folder_.write("parts/a.pbrt",
-                "Translate 1 0 0\nInclude \"parts/c.pbrt\"\nInclude \"c.pbrt\"");  // from the main file, and from here
-  folder_.write("parts/b.pbrt",
-                "Translate 0 5 0\nMakeNamedMaterial \"m\" \"string type\" \"diffuse\"\nShape \"sphere\"");
-  folder_.write("parts/c.pbrt", "Shape \"sphere\"");
-  Diagnostics d;
-  const SceneDescription scene = read_pbrt(folder_.path() / "main.pbrt", d);
-  EXPECT_EQ(d.format_all(), "");
-  EXPECT_EQ(scene.folder, folder_.path());
-  ASSERT_EQ(scene.shapes.size(), 5u);
-  for (const size_t i : {0u, 1u, 2u, 4u}) expect_near(apply(scene.shapes[i].to_world, {0, 0, 0}), {1, 0, 0});
-  expect_near(apply(scene.shapes[3].to_world, {0, 0, 0}), {1, 5, 0});
-  EXPECT_EQ(scene.materials.size(), 1u);
-}
-
-TEST_F(PbrtFiles, AParameterListMayGoOnAfterAnInclude) {
-  folder_.write("main.pbrt", "WorldBegin Include \"parts/a.pbrt\" \"float radius\" 2");
-  folder_.write("parts/a.pbrt", "Shape \"sphere\"");
-  Diagnostics d;
-  const SceneDescription scene = read_pbrt(folder_.path() / "main.pbrt", d);
-  EXPECT_EQ(d.format_all(), "");
-  EXPECT_EQ(scene.shapes.at(0).use.find("radius")->numbers[0], 2);
+TEST(PbrtReader, ActiveTransformMovesWhatFollows) {
+  const Reading r(R"(TransformTimes 2 5
+ActiveTransform StartTime Translate 0 0 1 ActiveTransform EndTime Translate 0 0 3 ActiveTransform All
+Camera "perspective"
+WorldBegin
+Translate 1 0 0
+AttributeBegin
+ActiveTransform EndTime Translate 0 1 0
+Shape "sphere"
+LightSource "point"
+ObjectInstance "o"
+AttributeEnd
+Shape "sphere"
+ObjectBegin "o"
+ObjectEnd)");
+  EXPECT_EQ(r.messages(), "");
+  EXPECT_EQ(r.scene.motion_start, 2);
+  EXPECT_EQ(r.scene.motion_end, 5);
+  expect_near(apply(r.scene.camera_to_world.start, {0, 0, 0}), {0, 0, -1});
+  expect_near(apply(r.scene.camera_to_world.end, {0, 0, 0}), {0, 0, -3});
+  for (const TransformPair& t :
+       {r.scene.shapes[0].to_world, r.scene.lights[0].to_world, r.scene.instances[0].to_world}) {
+    expect_near(apply(t.start, {0, 0, 0}), {1, 0, 0});
+    expect_near(apply(t.end, {0, 0, 0}), {1, 1, 0});
+  }
+  EXPECT_FALSE(r.scene.shapes[1].to_world.is_moving());
 }
 
 TEST(PbrtReader, MegabytesOfNumbersAreReadQuickly) {

@@ -2,10 +2,12 @@
 // place in the world (one level: compile() has flattened deeper nesting).
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "shapes/mesh.h"
 #include "shapes/patch.h"
+#include "shapes/placement.h"
 #include "shapes/quadric.h"
 
 namespace etd {
@@ -16,9 +18,10 @@ struct GeometryGroup {
   std::vector<uint32_t> patch_meshes = {};      // indices into Geometry::patch_meshes
 };
 
-struct GeometryInstance {
+// A group placed in the world; where it moves, as it is at time 0.
+struct GeometryInstance : Placement {
   uint32_t group = 0;
-  Affine to_world, to_object;
+  const AnimatedTransform* motion = nullptr;
 };
 
 struct Geometry {
@@ -27,6 +30,13 @@ struct Geometry {
   std::vector<Quadric> quadrics;
   std::vector<GeometryGroup> groups = {{}};
   std::vector<GeometryInstance> instances;
+  std::deque<AnimatedTransform> motions;  // that instances refer to
+
+  Placement placement(uint32_t instance, float time) const {
+    const GeometryInstance& i = instances[instance];
+    if (i.motion) return placement_at(*i.motion, time);
+    return i;
+  }
 };
 
 }  // namespace etd

@@ -11,6 +11,7 @@ inline constexpr uint32_t kFirstPatchGeometry = 0x80000000u;
 
 struct Hit {
   float t = kInfinity;
+  float time = 0;              // of the ray: what moves was where it then is
   uint32_t geometry = kNoId;   // index of the mesh, or of the patch mesh from kFirstPatchGeometry, or kQuadricGeometry
   uint32_t primitive = kNoId;  // triangle or patch of the mesh, or index of the quadric
   uint32_t instance = kNoId;   // kNoId: in the world itself

@@ -19,8 +19,21 @@ template Camera::Camera(const OrthographicCamera&);
 template Camera::Camera(const PerspectiveCamera&);
 template Camera::Camera(const SphericalCamera&);
 
+void Camera::set_motion(const Shutter& shutter, std::optional<AnimatedTransform> motion) {
+  shutter_ = shutter;
+  motion_ = std::move(motion);
+}
+
 Ray Camera::generate_ray(const CameraSample& sample) const {
-  return dispatch<Ray, Cameras>(storage_, [&](const auto& c) { return c.generate_ray(sample); });
+  Ray ray = dispatch<Ray, Cameras>(storage_, [&](const auto& c) { return c.generate_ray(sample); });
+  const double u = static_cast<double>(sample.time);
+  ray.time = clamp(static_cast<float>(shutter_.open + (shutter_.close - shutter_.open) * u), 0.0f, 1.0f);
+  if (motion_) {
+    const Transform t = motion_->at(ray.time);
+    ray.o = to_float(t.point(to_double(ray.o)));
+    ray.d = normalize(to_float(t.vector(to_double(ray.d))));
+  }
+  return ray;
 }
 
 std::span<const ModelDecl* const> camera_models() {

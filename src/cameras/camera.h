@@ -3,8 +3,11 @@
 
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <span>
 
+#include "cameras/shutter.h"
+#include "core/animated_transform.h"
 #include "core/distribution.h"
 #include "core/ray.h"
 #include "core/tagged.h"
@@ -26,11 +29,17 @@ class Camera {
   template <class T>
   explicit Camera(const T& camera);
 
+  // When rays start, with 0 and 1 the start and the end of the scene's motion; before and after they are those. A motion
+  // carries the camera from the space in which it was made.
+  void set_motion(const Shutter& shutter, std::optional<AnimatedTransform> motion);
+
   // A ray of unit direction, weighted 1.
   Ray generate_ray(const CameraSample& sample) const;
 
  private:
   TaggedStorage<144> storage_;
+  Shutter shutter_;
+  std::optional<AnimatedTransform> motion_;
 };
 
 struct CameraFrame {

@@ -16,10 +16,10 @@ struct Lens {
   // The ray through a point of the lens that meets the pinhole's ray (from `origin`, where the lens has its middle,
   // along `d`, which has depth 1 in camera space) at the focal distance: they belong to the same point in focus.
   Ray ray(Point3 origin, Vec3 d, const CameraSample& s) const {
-    if (x == Vec3()) return {origin, normalize(d), kInfinity, s.time};
+    if (x == Vec3()) return {origin, normalize(d)};
     const Vec2 p = aperture.sample(s.lens);
     const Vec3 offset = x * p.x + y * p.y;
-    return {origin + offset, normalize(d - offset * curvature), kInfinity, s.time};
+    return {origin + offset, normalize(d - offset * curvature)};
   }
 };
 

@@ -7,7 +7,7 @@ namespace etd {
 const ModelDecl& OrthographicCamera::decl() {
   static const ModelDecl d =
       with_params({Family::kCamera, "orthographic", "Parallel rays: what is far away looks no smaller.", {}},
-                  {Screen::params(), Lens::params()});
+                  {Screen::params(), Lens::params(), Shutter::params()});
   return d;
 }
 

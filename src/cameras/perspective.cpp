@@ -16,7 +16,7 @@ const ModelDecl& PerspectiveCamera::decl() {
                      .above_min = true,
                      .unit = "degrees",
                      .doc = "Full angle of view along the shorter side of the image."}}},
-                  {Screen::params(), Lens::params()});
+                  {Screen::params(), Lens::params(), Shutter::params()});
   return d;
 }
 

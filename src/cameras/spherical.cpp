@@ -5,18 +5,19 @@
 namespace etd {
 
 const ModelDecl& SphericalCamera::decl() {
-  static const ModelDecl d{
-      Family::kCamera,
-      "spherical",
-      "All directions from one point.",
-      {{.name = "mapping",
-        .type = ParamType::kString,
-        .default_value = std::string("equalarea"),
-        .choices = {"equalarea", "equirectangular"},
-        .doc =
-            "Where directions lie in the image: equalarea is the octahedral map of infinite lights with the camera's "
-            "up (y) in the middle, all pixels seeing equal solid angles; equirectangular has the angle to up along "
-            "its height and that around it, from x towards z, along its width."}}};
+  static const ModelDecl d = with_params(
+      {Family::kCamera,
+       "spherical",
+       "All directions from one point.",
+       {{.name = "mapping",
+         .type = ParamType::kString,
+         .default_value = std::string("equalarea"),
+         .choices = {"equalarea", "equirectangular"},
+         .doc =
+             "Where directions lie in the image: equalarea is the octahedral map of infinite lights with the camera's "
+             "up (y) in the middle, all pixels seeing equal solid angles; equirectangular has the angle to up along "
+             "its height and that around it, from x towards z, along its width."}}},
+      {Shutter::params()});
   return d;
 }
 

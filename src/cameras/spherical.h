@@ -16,7 +16,7 @@ struct SphericalCamera {
 
   Ray generate_ray(const CameraSample& s) const {
     const Vec3 d = direction({s.film.x * pixel.x, s.film.y * pixel.y});
-    return {origin, normalize(x * d.x + y * d.y + z * d.z), kInfinity, s.time};
+    return {origin, normalize(x * d.x + y * d.y + z * d.z)};
   }
   // Of a point of the image as a share of its sides, in camera space.
   Vec3 direction(Vec2 st) const;

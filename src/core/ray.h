@@ -9,7 +9,7 @@ struct Ray {
   Point3 o;
   Vec3 d;  // need not be unit length
   float t_max = kInfinity;
-  float time = 0;   // seconds within the shutter
+  float time = 0;   // from 0 at the start of the scene's motion to 1 at its end
   float t_min = 0;  // what lies up to and at this distance is not met
 };
 

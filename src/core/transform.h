@@ -50,4 +50,15 @@ class Transform {
   Mat4 m_, inv_;
 };
 
+// A transform as it is at the start and at the end of the scene's motion (core/animated_transform.h: in between).
+struct TransformPair {
+  Transform start, end;
+
+  TransformPair() = default;
+  TransformPair(const Transform& always) : start(always), end(always) {}
+  TransformPair(const Transform& at_start, const Transform& at_end) : start(at_start), end(at_end) {}
+  bool is_moving() const { return !(start.matrix() == end.matrix()); }
+  TransformPair inverse() const { return {start.inverse(), end.inverse()}; }
+};
+
 }  // namespace etd

@@ -67,7 +67,7 @@ std::string PathIntegrator::bias() const {
 
 namespace {
 
-// Sampler dimensions: two for the camera ray, then a fixed block per path vertex.
+// Sampler dimensions: film, lens and time for the camera ray, then a fixed block per path vertex.
 constexpr uint32_t kCameraDimensions = 4, kVertexDimensions = 6;
 enum VertexDimension : uint32_t { kLightChoice, kLightPoint, kScatter, kScatterLobe, kRoulette };
 
@@ -97,7 +97,7 @@ Spectrum next_event(const Scene& scene, const Vertex& v, PathMode mode, Sampler&
   const auto choice = scene.light_sampler.sample(u_light);
   if (!choice) return Spectrum();
   const Light& light = scene.lights[choice->light];
-  const auto s = light.sample_li(v.point.p, u_point, light_sampling(mode));
+  const auto s = light.sample_li(v.point.p, u_point, light_sampling(mode), time);
   if (!s) return Spectrum();
   Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
   if (is_black(f)) return Spectrum();
@@ -118,7 +118,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
   const FilterSample film = scene_.filter.sample(sampler.get_2d());
   const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
                         sampler.get_2d(),
-                        0.0f};
+                        scene_.moves ? sampler.get_1d() : 0.0f};
   Ray ray = scene_.camera.generate_ray(at);
 
   Spectrum beta(film.weight);   // throughput: the product of f cos / pdf so far
@@ -138,7 +138,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
   const auto emission_weight = [&](uint32_t light, const SurfacePoint* on_light) {
     if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;
     if (settings_.mode == PathMode::kNextEvent) return 0.0f;
-    const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode));
+    const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode), ray.time);
     return mis_weight(scatter_pdf, scene_.light_sampler.probability(light) * pdf);
   };
 
@@ -148,7 +148,8 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
       for (uint32_t light : scene_.infinite_lights)
-        add(depth, beta * scene_.lights[light].emitted(nullptr, -ray.d, ray.o) * emission_weight(light, nullptr));
+        add(depth,
+            beta * scene_.lights[light].emitted(nullptr, -ray.d, ray.o, ray.time) * emission_weight(light, nullptr));
       break;
     }
     const SurfaceHit surface = scene_.surface(hit);

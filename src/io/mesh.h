@@ -17,6 +17,8 @@ struct MeshData {
   std::vector<Vec3> normals;  // empty or one per vertex; not normalised
   std::vector<Vec2> uvs;      // empty or one per vertex
   std::vector<std::array<uint32_t, 3>> triangles;
+  // Positions and normals hold the vertices of so many moments, one after the other.
+  uint32_t motion_steps = 1;
 };
 
 // What reading a mesh file gave: the mesh, or every problem found ("line 12: vertex index 99 is out of range ...").

@@ -10,6 +10,7 @@
 #include "lights/portal_infinite.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
+#include "shapes/placement.h"
 
 namespace etd {
 
@@ -45,16 +46,30 @@ bool Light::is_delta() const {
   return dispatch<bool, Lights>(storage_, [](const auto& l) { return l.is_delta(); });
 }
 
-std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u, LightSampling sampling) const {
+std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u, LightSampling sampling, float time) const {
+  return motion_ ? sample_moving(p, u, sampling, time) : sample_still(p, u, sampling);
+}
+
+float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const {
+  return motion_ ? pdf_moving(p, wi, on_light, sampling, time) : pdf_still(p, wi, on_light, sampling);
+}
+
+std::optional<LightSample> Light::sample_still(Point3 p, Vec2 u, LightSampling sampling) const {
   return dispatch<std::optional<LightSample>, Lights>(storage_,
                                                       [&](const auto& l) { return l.sample_li(p, u, sampling); });
 }
 
-float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const {
+float Light::pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const {
   return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, sampling); });
 }
 
-Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from) const {
+Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from, float time) const {
+  // What a surface emits depends on nothing that changes when both it and w move.
+  if (motion_ && !on_light) {
+    const Placement at = placement_at(*motion_, time);
+    w = normalize(at.to_object.vector(w));
+    seen_from = at.to_object.point(seen_from);
+  }
   return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) {
     if constexpr (std::is_same_v<decltype(l), const PortalInfiniteLight&>)
       return l.emitted(on_light, w, seen_from);
@@ -64,7 +79,7 @@ Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from) 
 }
 
 Spectrum Light::power() const {
-  return dispatch<Spectrum, Lights>(storage_, [](const auto& l) { return l.power(); });
+  return dispatch<Spectrum, Lights>(storage_, [](const auto& l) { return l.power(); }) * power_scale_;
 }
 
 uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }

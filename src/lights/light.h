@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/animated_transform.h"
 #include "core/tagged.h"
 #include "core/transform.h"
 #include "params/declaration.h"
@@ -33,27 +34,41 @@ class Light {
  public:
   template <class T>
   explicit Light(const T& light);
+  // The same light when the space in which it is described moves so; the motion must outlive the light. Only those on
+  // surfaces may do more than turn and translate.
+  Light moving(const AnimatedTransform& motion) const;
 
   bool is_infinite() const;
   bool is_delta() const;
   // Nothing when the sample carries no light (wrong side, degenerate geometry): that is an estimate of 0.
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling sampling = LightSampling::kComplete) const;
+  // Here and below, `time` is that of the ray: where a light that moves is.
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling sampling = LightSampling::kComplete,
+                                       float time = 0) const;
   // Solid-angle density with which sample_li makes wi, 0 where it makes none and for delta lights; `on_light` is the
   // point met there, null for infinite lights.
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light,
-               LightSampling sampling = LightSampling::kComplete) const;
+               LightSampling sampling = LightSampling::kComplete, float time = 0) const;
   // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w from the
   // point `seen_from`, on which that of a light behind a portal depends. 0 for delta lights.
-  Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}) const;
-  // Emitted power of finite lights, W (per lane), or what comes in through a portal. Other infinite lights have none
-  // that does not depend on the scene: theirs is the power through a unit disk, over all directions.
+  Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}, float time = 0) const;
+  // Emitted power of finite lights, W (per lane), its mean over time where they grow, or what comes in through a
+  // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,
+  // over all directions.
   Spectrum power() const;
   // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
   uint32_t kind() const { return storage_.tag; }
   static uint32_t kind_count();
 
  private:
+  // In the light's own space.
+  std::optional<LightSample> sample_still(Point3 p, Vec2 u, LightSampling sampling) const;
+  float pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const;
+  std::optional<LightSample> sample_moving(Point3 p, Vec2 u, LightSampling sampling, float time) const;
+  float pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const;
+
   TaggedStorage<96> storage_;
+  const AnimatedTransform* motion_ = nullptr;
+  float power_scale_ = 1;
 };
 
 struct LightData;

@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "core/animated_transform.h"
 #include "lights/environment_map.h"
 #include "lights/portal_map.h"
 
@@ -12,6 +13,7 @@ struct LightData {
   std::deque<EnvironmentMap> environments;
   std::deque<PortalMap> portals;
   std::deque<Image> images;
+  std::deque<AnimatedTransform> motions;
 
   size_t bytes() const {
     size_t sum = 0;

@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "cameras/shutter.h"
+#include "scene/check_transform.h"
 #include "scene/compile_geometry.h"
 #include "scene/compile_lights.h"
 #include "scene/registry.h"
@@ -93,6 +95,27 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
   return material_of;
 }
 
+// A camera that moves is made in a space of its own, in which it has the size that it has at the start, and carried
+// from there.
+void compile_camera(const SceneDescription& description, const CompileOptions& options, Scene& scene,
+                    Diagnostics& diagnostics) {
+  const TransformPair& to_world = description.camera_to_world;
+  const bool has_place = check_transform(to_world, description.camera.loc, "camera", diagnostics);
+  const Transform recentre = Transform::translate(-scene.origin);
+  const Transform size = TransformParts::of(to_world.start.matrix()).rest();
+  const bool moves = to_world.is_moving();
+  scene.camera = make_camera(
+      description.camera, {moves ? size : recentre * to_world.start, options.width, options.height, description.folder},
+      scene.camera_data, diagnostics);
+  const ModelDecl* decl = find_model(Family::kCamera, description.camera.model);
+  if (!decl || !has_place) return;
+  const Shutter shutter = read_shutter({*decl, description.camera, diagnostics});
+  std::optional<AnimatedTransform> motion;
+  if (moves) motion.emplace(TransformPath().then(recentre).then(to_world).then(size.inverse()), Vec3d{}, 1.0);
+  scene.moves |= moves;
+  scene.camera.set_motion(shutter.within(description.motion_start, description.motion_end), std::move(motion));
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
@@ -110,13 +133,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
 
   check(Family::kCamera, description.camera, diagnostics);
   check(Family::kFilter, description.filter, diagnostics);
-  if (description.camera_to_world.is_singular())
-    diagnostics.error(description.camera.loc, "the camera's transform is singular");
-  const Transform to_recentred = Transform::translate(-scene->origin);
-  scene->camera =
-      make_camera(description.camera,
-                  {to_recentred * description.camera_to_world, options.width, options.height, description.folder},
-                  scene->camera_data, diagnostics);
+  compile_camera(description, options, *scene, diagnostics);
   scene->filter = make_filter(description.filter, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
 

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "scene/check_transform.h"
 #include "scene/compile_lights.h"
+#include "scene/place.h"
 #include "scene/registry.h"
 #include "shapes/shape.h"
 
@@ -13,18 +15,15 @@ namespace etd {
 
 namespace {
 
-// A shape of the description under the transform to the space in which rays will meet it.
-struct PlacedShape {
-  const ShapeDesc* shape;
-  Transform to_space;
-};
+constexpr int kMoments = 17;  // at which bounds of what moves are taken
 
-// A shape of the world that is a light.
+// A shape that is a light.
 struct Emitter {
   enum class Kind { kMesh, kPatches, kQuadric };
   const ShapeDesc* shape;
   Kind kind;
-  uint32_t index;  // of the mesh, patch mesh or quadric
+  uint32_t index;                             // of the mesh, patch mesh or quadric
+  const AnimatedTransform* motion = nullptr;  // of its space; null: that is the world
 };
 
 class GeometryCompiler {
@@ -39,9 +38,9 @@ class GeometryCompiler {
 
   void run() {
     check_shapes();
-    place();
     load();
     if (diagnostics_.has_errors()) return;
+    placed_ = place_shapes(description_);
     measure();
     if (diagnostics_.has_errors()) return;
     const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
@@ -50,9 +49,9 @@ class GeometryCompiler {
     // Surfaces of invisible lights are there for sampling, in a group that nothing refers to. They come last, because a
     // group's quadrics stand in a row.
     GeometryGroup unseen;
-    for (const PlacedShape& s : world_)
+    for (const PlacedShape& s : placed_.world)
       if (!is_invisible(s)) add(s, scene_.origin, scene_.geometry.groups[0], true);
-    for (const PlacedShape& s : world_)
+    for (const PlacedShape& s : placed_.world)
       if (is_invisible(s)) add(s, scene_.origin, unseen, true);
     add_groups();
     add_lights();
@@ -63,14 +62,13 @@ class GeometryCompiler {
   void check_shapes() {
     const auto check = [&](const ShapeDesc& s) {
       if (const ModelDecl* decl = find_model(Family::kShape, s.use.model)) check_params(*decl, s.use, diagnostics_);
-      if (s.to_world.is_singular())
-        diagnostics_.error(s.use.loc, fmt::format("the transform of this {} is singular", s.use.model));
+      check_transform(s.to_world, s.use.loc, s.use.model, diagnostics_);
       if (s.area_light >= 0 && is_interface(s))
         diagnostics_.error(s.use.loc, "a shape of material \"interface\" can't be an area light",
                            "give it a material, such as a black diffuse one");
     };
     const auto check_instance = [&](const InstanceDesc& i) {
-      if (i.to_world.is_singular()) diagnostics_.error(i.loc, "the transform of this instance is singular");
+      check_transform(i.to_world, i.loc, "instance", diagnostics_);
     };
     for (const ShapeDesc& s : description_.shapes) check(s);
     for (const InstanceDesc& i : description_.instances) check_instance(i);
@@ -82,46 +80,15 @@ class GeometryCompiler {
 
   bool is_interface(const ShapeDesc& s) const { return material_of_[static_cast<size_t>(s.material + 1)] == kNoId; }
 
-  // Flattens: an object that one instance uses, or that holds lights, becomes world shapes; others are shared.
-  void place() {
-    for (const ShapeDesc& s : description_.shapes) world_.push_back({&s, s.to_world});
-    std::vector<std::vector<InstanceDesc>> placed(description_.objects.size());
-    for (const InstanceDesc& i : description_.instances) placed[static_cast<size_t>(i.object)].push_back(i);
-    // Objects only contain earlier ones, so going backwards every placement is known before its object is reached.
-    for (size_t o = description_.objects.size(); o-- > 0;) {
-      const ObjectDesc& object = description_.objects[o];
-      if (placed[o].size() > 1 && !emits(object)) {
-        shared_.insert(shared_.end(), placed[o].begin(), placed[o].end());
-        expand(object, Transform(), objects_[static_cast<int>(o)]);
-        continue;
-      }
-      for (const InstanceDesc& outer : placed[o]) {
-        for (const ShapeDesc& s : object.shapes) world_.push_back({&s, outer.to_world * s.to_world});
-        for (const InstanceDesc& i : object.instances)
-          placed[static_cast<size_t>(i.object)].push_back({i.object, outer.to_world * i.to_world, i.loc});
-      }
-    }
-  }
-
-  bool emits(const ObjectDesc& object) const {
-    for (const ShapeDesc& s : object.shapes)
-      if (s.area_light >= 0) return true;
-    for (const InstanceDesc& i : object.instances)
-      if (emits(description_.objects[static_cast<size_t>(i.object)])) return true;
-    return false;
-  }
-
-  // All shapes of an object and of the objects in it.
-  void expand(const ObjectDesc& object, const Transform& t, std::vector<PlacedShape>& out) const {
-    for (const ShapeDesc& s : object.shapes) out.push_back({&s, t * s.to_world});
-    for (const InstanceDesc& i : object.instances)
-      expand(description_.objects[static_cast<size_t>(i.object)], t * i.to_world, out);
-  }
-
   void load() {
     const auto load_one = [&](const ShapeDesc& s) {
       if (!find_model(Family::kShape, s.use.model) || is_interface(s)) return;
-      if (auto geometry = make_shape(s.use, description_.folder, diagnostics_)) loaded_[&s] = std::move(*geometry);
+      if (auto geometry = make_shape(s.use, description_.folder, diagnostics_)) {
+        if (s.area_light >= 0 && geometry->mesh && geometry->mesh->motion_steps > 1)
+          diagnostics_.error(s.use.loc, "an area light can't be on a mesh that deforms",
+                             "\"motionsteps\" is for meshes that do not emit; ActiveTransform moves any shape");
+        loaded_[&s] = std::move(*geometry);
+      }
       if (s.use.find("alpha")) load_alpha(s);
     };
     for (const ShapeDesc& s : description_.shapes) load_one(s);
@@ -164,27 +131,34 @@ class GeometryCompiler {
   // Bounds of the objects in their own space and of the world, not recentred. Reports what is too large for the
   // accelerator, which leaves out without a word what lies beyond 1.8e18.
   void measure() {
-    for (const PlacedShape& s : world_) {
+    for (const PlacedShape& s : placed_.world) {
       Bounds3 b;
       extend(b, s);
       add_bounds(scene_.summary.bounds, b, s.shape->use.loc, s.shape->use.model);
     }
-    for (const auto& [object, shapes] : objects_) {
-      Bounds3& local = local_bounds_[object];
-      for (const PlacedShape& s : shapes) {
+    for (const ShapeGroup& group : placed_.groups) {
+      Bounds3& local = group_bounds_.emplace_back();
+      for (const PlacedShape& s : group.shapes) {
         Bounds3 b;
         extend(b, s);
         add_bounds(local, b, s.shape->use.loc, s.shape->use.model);
       }
+      for (const PlacedGroup& i : group.instances)
+        add_bounds(scene_.summary.bounds, instance_bounds(i.to_world, local), i.loc, "instance");
     }
-    for (const InstanceDesc& i : shared_) {
-      const Bounds3& local = local_bounds_[i.object];
-      Bounds3 b;
-      for (int corner = 0; !local.empty() && corner < 8; ++corner)
-        b.extend(i.to_world.point({corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
-                                   corner & 4 ? local.hi.z : local.lo.z}));
-      add_bounds(scene_.summary.bounds, b, i.loc, "instance");
+  }
+
+  // Of what moves: at some moments.
+  static Bounds3 instance_bounds(const TransformPath& path, const Bounds3& local) {
+    Bounds3 b;
+    const int moments = path.moves() ? kMoments : 1;
+    for (int i = 0; i < moments && !local.empty(); ++i) {
+      const Transform t = path.at(moments > 1 ? static_cast<double>(i) / (moments - 1) : 0.0);
+      for (int corner = 0; corner < 8; ++corner)
+        b.extend(t.point({corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
+                          corner & 4 ? local.hi.z : local.lo.z}));
     }
+    return b;
   }
 
   void add_bounds(Bounds3& all, const Bounds3& b, SourceLoc loc, std::string_view what) {
@@ -200,14 +174,15 @@ class GeometryCompiler {
 
   // Lights and the accelerator keep pointers into these arrays, so they must not grow later.
   void reserve() {
-    size_t count = world_.size();
-    for (const auto& [object, shapes] : objects_) count += shapes.size();
+    size_t count = placed_.world.size();
+    for (const ShapeGroup& group : placed_.groups) count += group.shapes.size();
     scene_.geometry.meshes.reserve(count);
     scene_.geometry.patch_meshes.reserve(count);
     scene_.geometry.quadrics.reserve(count);
   }
 
-  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group, bool in_world) {
+  // `may_emit`: the group is in one place alone.
+  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group, bool may_emit) {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
     const Transform to_space = Transform::translate(-origin) * placed.to_space;
@@ -225,6 +200,8 @@ class GeometryCompiler {
       group.meshes.push_back(emitter.index);
       scene_.geometry.meshes.push_back(place_vertices<Mesh>(*it->second.mesh, to_space, reverse));
       scene_.geometry.meshes.back().triangles = it->second.mesh->triangles;
+      scene_.geometry.meshes.back().motion_steps = it->second.mesh->motion_steps;
+      scene_.moves |= it->second.mesh->motion_steps > 1;
       scene_.mesh_bindings.push_back(binding);
       scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
     } else if (it->second.patches) {
@@ -241,7 +218,7 @@ class GeometryCompiler {
       scene_.quadric_bindings.push_back(binding);
       ++group.quadric_end;
     }
-    if (in_world && placed.shape->area_light >= 0) emitters_.push_back(emitter);
+    if (may_emit && placed.shape->area_light >= 0) emitters_.push_back(emitter);
   }
 
   // A Mesh or PatchMesh with everything but its faces.
@@ -262,31 +239,43 @@ class GeometryCompiler {
   }
 
   void add_groups() {
-    struct Group {
-      uint32_t index;
-      Transform from_group;  // to the object's space
-      size_t triangles;
-    };
-    std::map<int, Group> group_of;
     size_t triangles_seen = scene_.summary.triangles;
-    for (const auto& [object, shapes] : objects_) {
-      const Bounds3& local = local_bounds_[object];
+    const TransformPath recentre = TransformPath().then(Transform::translate(-scene_.origin));
+    for (size_t g = 0; g < placed_.groups.size(); ++g) {
+      const ShapeGroup& shapes = placed_.groups[g];
+      const Bounds3& local = group_bounds_[g];
       const Vec3d origin = (local.empty() ? Point3d{} : local.center()) - Point3d{};
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
-      const size_t before = scene_.summary.triangles;
-      for (const PlacedShape& s : shapes) add(s, origin, group, false);
-      group_of[object] = {static_cast<uint32_t>(scene_.geometry.groups.size()), Transform::translate(origin),
-                          scene_.summary.triangles - before};
+      const size_t before = scene_.summary.triangles, first_emitter = emitters_.size();
+      GeometryGroup unseen;
+      for (const PlacedShape& s : shapes.shapes)
+        if (!is_invisible(s)) add(s, origin, group, !shapes.is_shared);
+      for (const PlacedShape& s : shapes.shapes)
+        if (is_invisible(s)) add(s, origin, unseen, true);
+      triangles_seen += (scene_.summary.triangles - before) * shapes.instances.size();
+      const auto index = static_cast<uint32_t>(scene_.geometry.groups.size());
       scene_.geometry.groups.push_back(std::move(group));
-    }
-    for (const InstanceDesc& i : shared_) {
-      const Group& group = group_of[i.object];
-      const Transform t = Transform::translate(-scene_.origin) * i.to_world * group.from_group;
-      scene_.geometry.instances.push_back({group.index, Affine(t.matrix()), Affine(t.inverse_matrix())});
-      triangles_seen += group.triangles;
+      const double size = local.empty() ? 0.0 : 0.5 * length(local.diagonal());
+      for (const PlacedGroup& i : shapes.instances) add_instance(index, recentre.then(i.to_world), origin, size);
+      for (size_t e = first_emitter; e < emitters_.size(); ++e)
+        emitters_[e].motion = scene_.geometry.instances.back().motion;
     }
     scene_.summary.instanced_triangles = triangles_seen;
+  }
+
+  // Shapes of the group are given from `origin`, from which they are at most `size` away.
+  void add_instance(uint32_t group, const TransformPath& path, Vec3d origin, double size) {
+    GeometryInstance& instance = scene_.geometry.instances.emplace_back();
+    instance.group = group;
+    if (!path.moves()) {
+      const Transform t = path.at(0) * Transform::translate(origin);
+      instance.to_world = Affine(t.matrix()), instance.to_object = Affine(t.inverse_matrix());
+      return;
+    }
+    scene_.moves = true;
+    instance.motion = &scene_.geometry.motions.emplace_back(path, origin, size);
+    static_cast<Placement&>(instance) = placement_at(*instance.motion, 0);
   }
 
   void add_lights() {
@@ -298,6 +287,8 @@ class GeometryCompiler {
       if (e.kind == Emitter::Kind::kMesh) lights.add_mesh(use, e.index, invisible);
       if (e.kind == Emitter::Kind::kPatches) lights.add_patches(use, e.index, invisible);
       if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index, invisible);
+      for (size_t i = first; e.motion && i < scene_.lights.size(); ++i)
+        scene_.lights[i] = scene_.lights[i].moving(*e.motion);
       const auto alpha = alpha_.find(e.shape);
       if (alpha == alpha_.end()) continue;
       scene_.light_alphas.resize(first, {1.0f, -1});
@@ -310,10 +301,8 @@ class GeometryCompiler {
   const TextureBuilder& textures_;
   Scene& scene_;
   Diagnostics& diagnostics_;
-  std::vector<PlacedShape> world_;
-  std::vector<InstanceDesc> shared_;                 // all that stay instances
-  std::map<int, std::vector<PlacedShape>> objects_;  // the objects of those, expanded
-  std::map<int, Bounds3> local_bounds_;
+  PlacedShapes placed_;
+  std::vector<Bounds3> group_bounds_;  // of placed_.groups, in their own space
   std::map<const ShapeDesc*, ShapeGeometry> loaded_;
   std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
   std::set<const ShapeDesc*> invisible_;           // lights of alpha 0

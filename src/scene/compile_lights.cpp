@@ -1,8 +1,11 @@
 #include "scene/compile_lights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "lights/diffuse_area.h"
+#include "scene/check_transform.h"
 #include "scene/registry.h"
 
 namespace etd {
@@ -125,12 +128,38 @@ void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool in
   ++scene_.summary.lights[use.model + " area light"];
 }
 
+namespace {
+
+// A light that moves is made in a space of its own, which turns and translates.
+std::optional<Light> make_moving_light(const LightDesc& desc, const std::filesystem::path& folder, Scene& scene,
+                                       Diagnostics& diagnostics) {
+  const Transform size = TransformParts::of(desc.to_world.start.matrix()).rest();
+  const TransformPath path = TransformPath().then(Transform::translate(-scene.origin)).then(desc.to_world);
+  const AnimatedTransform& motion = scene.light_data.motions.emplace_back(path.then(size.inverse()), Vec3d{}, 1.0);
+  if (!motion.is_rigid())
+    diagnostics.error(desc.use.loc, fmt::format("this {} light changes its size while it moves", desc.use.model),
+                      "lights that are no shapes can only be translated and turned");
+  if (const Param* portal = desc.use.find("portal"))
+    diagnostics.error(portal->loc, "a light behind a portal can't move",
+                      "the portal is in the world, not on the light");
+  const auto light = make_light(desc.use, {size, folder, scene.light_data, Transform()}, diagnostics);
+  scene.moves = true;
+  return light ? std::optional(light->moving(motion)) : std::nullopt;
+}
+
+}  // namespace
+
 void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
   const Transform to_recentred = Transform::translate(-scene.origin);
   for (const LightDesc& desc : description.lights) {
     if (const ModelDecl* decl = find_model(Family::kLight, desc.use.model)) check_params(*decl, desc.use, diagnostics);
-    const auto light = make_light(
-        desc.use, {to_recentred * desc.to_world, description.folder, scene.light_data, to_recentred}, diagnostics);
+    if (!check_transform(desc.to_world, desc.use.loc, "light", diagnostics)) continue;
+    const auto light =
+        desc.to_world.is_moving()
+            ? make_moving_light(desc, description.folder, scene, diagnostics)
+            : make_light(desc.use,
+                         {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
+                         diagnostics);
     if (!light) continue;
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));

@@ -25,15 +25,15 @@ struct MaterialDesc {
 
 struct ShapeDesc {
   ModelUse use;
-  Transform to_world;  // of an object's shape: to the object's space
+  TransformPair to_world;  // of an object's shape: to the object's space
   bool reverse_orientation = false;
   int material = -1;    // index into materials; -1: the default diffuse
   int area_light = -1;  // index into area_lights; -1: does not emit
 };
 
 struct InstanceDesc {
-  int object = -1;     // index into objects
-  Transform to_world;  // from the object's space
+  int object = -1;         // index into objects
+  TransformPair to_world;  // from the object's space
   SourceLoc loc;
 };
 
@@ -47,7 +47,7 @@ struct ObjectDesc {
 
 struct LightDesc {
   ModelUse use;
-  Transform to_world;
+  TransformPair to_world;
 };
 
 struct SceneDescription {
@@ -56,7 +56,9 @@ struct SceneDescription {
 
   // The readers fill these with their format's defaults when the file does not say.
   ModelUse camera, film, filter, sampler, integrator;
-  Transform camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
+  TransformPair camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
+  // When what moves is where its two transforms say, and deforming meshes begin and end; before and after, all rests.
+  double motion_start = 0, motion_end = 1;  // s
 
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;

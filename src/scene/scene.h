@@ -79,6 +79,7 @@ class Scene {
   std::vector<Light> lights;
   std::vector<uint32_t> face_lights;      // of the triangles and patches of emitting meshes, mesh by mesh
   bool has_holes = false;                 // any surface
+  bool moves = false;                     // anything, so that the time of a ray matters
   std::vector<FloatSource> light_alphas;  // by light; only as long as the last that has holes
   std::vector<uint32_t> infinite_lights;  // those that rays can find
   LightData light_data;

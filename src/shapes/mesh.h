@@ -10,12 +10,16 @@
 namespace etd {
 
 struct Mesh {
-  std::vector<Point3> positions;
-  std::vector<Vec3> normals;  // empty or one unit normal per vertex (or zero: the face's)
-  std::vector<Vec2> uvs;      // empty or one per vertex
+  std::vector<Point3> positions;  // of all motion steps, one step after the other
+  std::vector<Vec3> normals;  // empty or one unit normal per position (or zero: the face's)
+  std::vector<Vec2> uvs;      // empty or one per vertex, the same at all steps
   std::vector<std::array<uint32_t, 3>> triangles;
   // ReverseOrientation xor mirroring transform: turns the geometric normal of a mesh without normals.
   bool flip_ng = false;
+  // More than 1: the mesh deforms. Its vertices are given at even steps of time from 0 to 1 and move straight between.
+  uint32_t motion_steps = 1;
+
+  size_t vertex_count() const { return positions.size() / motion_steps; }
 
   size_t bytes() const {
     return positions.size() * sizeof(Point3) + normals.size() * sizeof(Vec3) + uvs.size() * sizeof(Vec2) +

@@ -21,6 +21,13 @@ const ModelDecl& trianglemesh_decl() {
         .doc = "Three vertices per triangle, from 0; may be left out for a single triangle."},
        {.name = "N", .type = ParamType::kNormal, .array = true, .doc = "A shading normal per vertex."},
        {.name = "uv", .type = ParamType::kPoint2, .array = true, .doc = "Texture coordinates per vertex."},
+       {.name = "motionsteps",
+        .type = ParamType::kInteger,
+        .default_value = 1,
+        .min = 1,
+        .max = 129,
+        .doc = "P and N hold the vertices of so many moments, one after the other, spread evenly over TransformTimes; "
+               "they move straight in between. Not in pbrt-v4."},
        alpha_param()}};
   return d;
 }
@@ -117,25 +124,34 @@ void check_indices(const ParamReader& p, size_t corners, size_t vertices, std::v
                       fmt::format("valid: 0 to {}", vertices - 1));
 }
 
-std::optional<IndexedVertices> read_indexed(const ParamReader& p, size_t corners) {
+// "P" and "N" hold the vertices of so many motion steps.
+std::optional<IndexedVertices> read_indexed(const ParamReader& p, size_t corners, size_t steps = 1) {
   Diagnostics& diagnostics = p.diagnostics();
   const int errors = diagnostics.error_count();
   const std::vector<double> positions = p.numbers("P"), normals = p.numbers("N"), uvs = p.numbers("uv");
   if (positions.empty()) return {};  // reported as missing
-  const size_t vertices = positions.size() / 3;
-  const auto check_count = [&](const char* name, size_t given) {
-    if (given == 0 || given == vertices) return;
+  const size_t points = positions.size() / 3, vertices = points / steps;
+  if (points % steps != 0) {
+    diagnostics.error(p.given("motionsteps")->value_loc,
+                      fmt::format("\"P\" has {} vertices, which {} motion steps do not share evenly", points, steps),
+                      "every motion step gives all the vertices");
+    return {};
+  }
+  const auto check_count = [&](const char* name, size_t given, size_t expected) {
+    if (given == 0 || given == expected) return;
     diagnostics.error(p.given(name)->value_loc,
-                      fmt::format("\"{}\" has values for {} vertices, but \"P\" has {}", name, given, vertices));
+                      fmt::format("\"{}\" has values for {} vertices, but \"P\" has {}{}", name, given, expected,
+                                  expected == points ? "" : " in each motion step"));
   };
-  check_count("N", normals.size() / 3);
-  check_count("uv", uvs.size() / 2);
+  check_count("N", normals.size() / 3, points);
+  check_count("uv", uvs.size() / 2, vertices);
   IndexedVertices read{{}, p.integers("indices")};
   check_indices(p, corners, vertices, read.indices);
   if (diagnostics.error_count() > errors) return {};
 
   MeshData& mesh = read.vertices;
-  for (size_t i = 0; i < vertices; ++i)
+  mesh.motion_steps = static_cast<uint32_t>(steps);
+  for (size_t i = 0; i < points; ++i)
     mesh.positions.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
   for (size_t i = 0; i + 2 < normals.size(); i += 3)
     mesh.normals.push_back(to_float(Vec3d{normals[i], normals[i + 1], normals[i + 2]}));
@@ -155,7 +171,7 @@ std::vector<std::array<uint32_t, N>> in_faces(const std::vector<int32_t>& indice
 }  // namespace
 
 std::optional<MeshData> make_trianglemesh(const ParamReader& p) {
-  std::optional<IndexedVertices> read = read_indexed(p, 3);
+  std::optional<IndexedVertices> read = read_indexed(p, 3, static_cast<size_t>(p.integer("motionsteps")));
   if (!read) return {};
   read->vertices.triangles = in_faces<3>(read->indices);
   return std::move(read->vertices);

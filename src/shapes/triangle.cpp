@@ -10,6 +10,24 @@ constexpr double kUnit = 0x1p-24;  // largest relative error of rounding to floa
 constexpr double kEdgeDistance = 0x1p-20;
 constexpr double kMaxCondition = 64.0;
 
+// The moment between two motion steps of a mesh: where their vertices begin, and the share of the second. In float, as
+// Embree finds it, so that both mean the same moment.
+struct Moment {
+  size_t first, second;
+  float share;
+
+  Moment(const Mesh& mesh, float time) {
+    const float scaled = time * static_cast<float>(mesh.motion_steps - 1);
+    const uint32_t step = std::min(static_cast<uint32_t>(scaled), mesh.motion_steps - 2);
+    first = step * mesh.vertex_count();
+    second = first + mesh.vertex_count();
+    share = scaled - static_cast<float>(step);
+  }
+  Vec3d operator()(Vec3d a, Vec3d b) const { return a * (1.0 - double(share)) + b * double(share); }
+};
+
+Vec3d as_vector(Point3 p) { return {p.x, p.y, p.z}; }
+
 // Length, shape and normal of a triangle, in double.
 struct Face {
   Point3d p[3];
@@ -18,9 +36,19 @@ struct Face {
   double longest;  // edge
   double error;    // the part of the error bound below that is the same for all points
 
-  Face(const Mesh& mesh, uint32_t triangle) {
+  Face(const Mesh& mesh, uint32_t triangle, float time) {
     const auto& index = mesh.triangles[triangle];
-    for (int i = 0; i < 3; ++i) p[i] = to_double(mesh.positions[index[i]]);
+    Vec3d moving;  // largest coordinates of vertices that are interpolated
+    for (int i = 0; i < 3; ++i) {
+      if (mesh.motion_steps == 1) {
+        p[i] = to_double(mesh.positions[index[i]]);
+        continue;
+      }
+      const Moment at(mesh, time);
+      const Vec3d a = as_vector(mesh.positions[at.first + index[i]]), b = as_vector(mesh.positions[at.second + index[i]]);
+      p[i] = Point3d{} + at(a, b);
+      for (int c = 0; c < 3; ++c) moving[c] = std::max({moving[c], std::abs(a[c]), std::abs(b[c])});
+    }
     const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
     n = cross(a, b);
     area2 = length(n);
@@ -29,6 +57,8 @@ struct Face {
     const double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
     longest = std::sqrt(std::max(aa, std::max(bb, cc)));
     error = 8.0 * kUnit * std::min(kMaxCondition * longest, std::sqrt(aa * bb * cc) * inverse);
+    // Embree interpolates in float: 4 u |n|.|vertex| covers what that moves the plane.
+    error += 4.0 * kUnit * (std::abs(n.x) * moving.x + std::abs(n.y) * moving.y + std::abs(n.z) * moving.z);
   }
 
   // How far from the plane a ray origin near `at` must be for the ray not to meet the triangle again. With u = 2^-24, L
@@ -59,10 +89,15 @@ Point3d blend(const Face& f, double b0, double b1, double b2) {
 }
 
 // Interpolated vertex normal; a zero vertex normal stands for the face's.
-Vec3 blend_normals(const Mesh& mesh, const std::array<uint32_t, 3>& index, Vec3 face, Vec3 b) {
+Vec3 blend_normals(const Mesh& mesh, const std::array<uint32_t, 3>& index, float time, Vec3 face, Vec3 b) {
+  const auto normal = [&](uint32_t vertex) {
+    if (mesh.motion_steps == 1) return mesh.normals[vertex];
+    const Moment at(mesh, time);
+    return to_float(at(to_double(mesh.normals[at.first + vertex]), to_double(mesh.normals[at.second + vertex])));
+  };
   Vec3 sum;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 n = mesh.normals[index[i]];
+    const Vec3 n = normal(index[i]);
     sum += (n == Vec3{} ? face : n) * b[i];
   }
   const float l = length(sum);
@@ -93,9 +128,17 @@ void set_parametrisation(const Mesh& mesh, const std::array<uint32_t, 3>& index,
 
 }  // namespace
 
-SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float margin) {
+Point3 triangle_position(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time) {
+  if (mesh.motion_steps > 1)
+    return to_float(blend(Face(mesh, triangle, time), 1.0 - double(b1) - double(b2), double(b1), double(b2)));
   const auto& index = mesh.triangles[triangle];
-  const Face f(mesh, triangle);
+  const Point3 p0 = mesh.positions[index[0]];
+  return p0 + (mesh.positions[index[1]] - p0) * b1 + (mesh.positions[index[2]] - p0) * b2;
+}
+
+SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time, float margin) {
+  const auto& index = mesh.triangles[triangle];
+  const Face f(mesh, triangle, time);
   double c1 = b1, c2 = b2, c0 = 1.0 - c1 - c2;
   Point3d p = blend(f, c0, c1, c2);
   const double error = f.error_at(p), nearest = f.edge_distance(error + margin);
@@ -113,7 +156,7 @@ SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float
   s.ng = to_float(mesh.flip_ng ? -f.n : f.n);
   s.ns = s.ng;
   if (!mesh.normals.empty()) {
-    s.ns = blend_normals(mesh, index, s.ng, b);
+    s.ns = blend_normals(mesh, index, time, s.ng, b);
     s.ng = face_forward(s.ng, s.ns);
   }
   set_parametrisation(mesh, index, f, b, s);
@@ -121,7 +164,7 @@ SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float
 }
 
 float triangle_area(const Mesh& mesh, uint32_t triangle) {
-  return static_cast<float>(0.5 * Face(mesh, triangle).area2);
+  return static_cast<float>(0.5 * Face(mesh, triangle, 0).area2);
 }
 
 SurfacePoint sample_triangle(const Mesh& mesh, uint32_t triangle, Vec2 u) {

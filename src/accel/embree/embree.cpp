@@ -10,6 +10,7 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -161,13 +162,18 @@ void Accelerator::Impl::attach_mesh(RTCScene scene, uint32_t id, const Mesh& mes
   RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   check();
   const auto& p = mesh.positions;
+  const size_t count = mesh.vertex_count();
   constexpr RTCFormat kVertex = RTC_FORMAT_FLOAT3;
   constexpr size_t kStride = sizeof(Point3);
-  if (p.capacity() > p.size()) {
-    rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, kVertex, p.data(), 0, kStride, p.size());
-  } else {
-    void* copy = rtcSetNewGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, kVertex, kStride, p.size());
-    if (copy) std::memcpy(copy, p.data(), p.size() * kStride);
+  rtcSetGeometryTimeStepCount(shape, mesh.motion_steps);
+  for (uint32_t step = 0; step < mesh.motion_steps; ++step) {
+    const size_t begin = step * count * kStride;
+    if (p.capacity() > p.size()) {
+      rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, step, kVertex, p.data(), begin, kStride, count);
+    } else {
+      void* copy = rtcSetNewGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, step, kVertex, kStride, count);
+      if (copy) std::memcpy(copy, p.data() + step * count, count * kStride);
+    }
   }
   rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                              sizeof(mesh.triangles[0]), mesh.triangles.size());
@@ -210,6 +216,22 @@ bool Accelerator::Impl::is_empty(const GeometryGroup& group) const {
   return group.quadric_begin == group.quadric_end;
 }
 
+static void set_motion(RTCGeometry shape, const AnimatedTransform& motion) {
+  const std::span<const AnimatedTransform::Key> keys = motion.keys();
+  rtcSetGeometryTimeStepCount(shape, static_cast<unsigned>(keys.size()));
+  for (unsigned step = 0; step < keys.size(); ++step) {
+    const AnimatedTransform::Key& k = keys[step];
+    RTCQuaternionDecomposition q;
+    rtcInitQuaternionDecomposition(&q);
+    rtcQuaternionDecompositionSetTranslation(&q, k.translation.x, k.translation.y, k.translation.z);
+    rtcQuaternionDecompositionSetQuaternion(&q, k.r, k.i, k.j, k.k);
+    rtcQuaternionDecompositionSetScale(&q, k.scale.x, k.scale.y, k.scale.z);
+    rtcQuaternionDecompositionSetSkew(&q, k.skew.x, k.skew.y, k.skew.z);
+    rtcQuaternionDecompositionSetShift(&q, k.shift.x, k.shift.y, k.shift.z);
+    rtcSetGeometryTransformQuaternion(shape, step, &q);
+  }
+}
+
 void Accelerator::Impl::attach_instance(uint32_t index) {
   const GeometryInstance& instance = geometry.instances[index];
   if (instance.group == 0) throw std::runtime_error("an instance cannot contain the world");
@@ -218,9 +240,13 @@ void Accelerator::Impl::attach_instance(uint32_t index) {
   RTCGeometry shape = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   check();
   rtcSetGeometryInstancedScene(shape, scenes[instance.group]);
-  const Affine& m = instance.to_world;
-  const float columns[12] = {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z, m.t.x, m.t.y, m.t.z};
-  rtcSetGeometryTransform(shape, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  if (instance.motion) {
+    set_motion(shape, *instance.motion);
+  } else {
+    const Affine& m = instance.to_world;
+    const float columns[12] = {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z, m.t.x, m.t.y, m.t.z};
+    rtcSetGeometryTransform(shape, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  }
   attach(scenes[0], shape, first_instance + index);
 }
 
@@ -253,6 +279,7 @@ bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
 
   const Geometry& geometry = impl_->geometry;
   hit.t = query.ray.tfar;
+  hit.time = ray.time;
   hit.instance = h.instID[0] == RTC_INVALID_GEOMETRY_ID ? kNoId : h.instID[0] - impl_->first_instance;
   const GeometryGroup& group = geometry.groups[hit.instance == kNoId ? 0 : geometry.instances[hit.instance].group];
   if (h.geomID < group.meshes.size()) {
@@ -280,6 +307,16 @@ bool Accelerator::occluded(const Ray& ray) const {
   RTCRay query = to_embree(ray);
   rtcOccluded1(impl_->scenes[0], &context, &query);
   return query.tfar < 0.0f;
+}
+
+Affine Accelerator::instance_to_world(uint32_t instance, float time) const {
+  Affine m;
+  float c[12];
+  RTCGeometry shape = rtcGetGeometry(impl_->scenes[0], impl_->first_instance + instance);
+  if (!shape) return m;
+  rtcGetGeometryTransform(shape, time, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, c);
+  m.x = {c[0], c[1], c[2]}, m.y = {c[3], c[4], c[5]}, m.z = {c[6], c[7], c[8]}, m.t = {c[9], c[10], c[11]};
+  return m;
 }
 
 size_t Accelerator::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes.load())); }

@@ -68,9 +68,9 @@ void add_camera(const Stage& stage, SceneDescription& scene) {
   const double flat = distance * std::cos(radians(kElevation));
   const Point3d eye = stage.place(flat * std::sin(radians(kAzimuth)), distance * std::sin(radians(kElevation)),
                                   flat * std::cos(radians(kAzimuth)));
-  scene.camera_to_world = Transform::look_at(eye, stage.center, stage.up()).inverse();
+  const Transform to_world = Transform::look_at(eye, stage.center, stage.up()).inverse();
   // LookAt makes a left-handed camera, whose x then points to the left of what a right-handed world shows: turned back.
-  scene.camera_to_world = scene.camera_to_world * Transform::scale({-1, 1, 1});
+  scene.camera_to_world = to_world * Transform::scale({-1, 1, 1});
   scene.camera = {"perspective", {number_param("fov", {kFov})}, {}};
 }
 

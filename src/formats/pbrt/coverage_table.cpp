@@ -63,8 +63,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kCamera, "spherical", "focaldistance", "*", "a spherical camera has no lens"},
       {Family::kCamera, "spherical", "frameaspectratio", "*", "a spherical camera sees all directions"},
       {Family::kCamera, "spherical", "screenwindow", "*", "a spherical camera sees all directions"},
-      {Family::kCamera, "", "shutteropen", "0", "a shutter that opens at 0"},
-      {Family::kCamera, "", "shutterclose", "1", "a shutter that closes at 1"},
 
       {Family::kFilm, "", "diagonal", "*", "only realistic cameras read it"},
       {Family::kFilm, "", "savefp16", "*", "images are written with 32-bit floats"},

@@ -13,20 +13,13 @@
 
 namespace etd::pbrt {
 
-// The current transform at the start and at the end of the shutter's time.
-struct TransformPair {
-  Transform start, end;
-  bool is_moving() const { return !(start.matrix() == end.matrix()); }
-  TransformPair inverse() const { return {start.inverse(), end.inverse()}; }
-};
-
 // What `Attribute` can give default parameters to.
 enum class AttributeTarget : uint8_t { kShape, kLight, kMaterial, kMedium, kTexture };
 inline constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "light", "material", "medium",
                                                                       "texture"};
 
 struct GraphicsState {
-  TransformPair ctm;
+  TransformPair ctm;  // the current transform
   bool start_active = true, end_active = true;  // which of the two the transform directives change
   bool reverse_orientation = false;
   ColorSpace color_space = ColorSpace::kSrgb;  // of rgb values that follow

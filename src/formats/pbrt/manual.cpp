@@ -131,8 +131,7 @@ std::string pbrt_coverage_markdown() {
       "what is named here is rendered instead.\n" +
       unsupported_models_table() + unsupported_params_table();
   out +=
-      "\nBesides: motion blur (a use of two different transforms; the start transform is rendered), media "
-      "(`MakeNamedMedium`,\n`MediumInterface` with a name; empty space) and every `ColorSpace` but `srgb`\n(`srgb`).\n";
+      "\nBesides: media (`MakeNamedMedium`, `MediumInterface` with a name; empty space).\n";
   return out;
 }
 

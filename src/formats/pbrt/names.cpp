@@ -59,7 +59,8 @@ bool Names::define_object(const std::string& name, int index, const SourceLoc& l
   return is_new;
 }
 
-void Names::use_object(const std::string& name, const SourceLoc& loc, const Transform& to_world, int inside_object) {
+void Names::use_object(const std::string& name, const SourceLoc& loc, const TransformPair& to_world,
+                       int inside_object) {
   object_uses_.push_back({name, loc, to_world, inside_object});
 }
 

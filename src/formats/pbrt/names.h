@@ -26,7 +26,7 @@ class Names {
 
   // False, and reported, when the name is taken.
   bool define_object(const std::string& name, int index, const SourceLoc& loc, Diagnostics& diagnostics);
-  void use_object(const std::string& name, const SourceLoc& loc, const Transform& to_world, int inside_object);
+  void use_object(const std::string& name, const SourceLoc& loc, const TransformPair& to_world, int inside_object);
 
   void define_medium(const std::string& name, const SourceLoc& loc, Diagnostics& diagnostics);
   void use_medium(const std::string& name, const SourceLoc& loc) { medium_uses_.push_back({name, loc}); }
@@ -47,7 +47,7 @@ class Names {
   struct ObjectUse {
     std::string name;
     SourceLoc loc;
-    Transform to_world;
+    TransformPair to_world;
     int inside_object;  // -1: in the world
   };
   struct Object {

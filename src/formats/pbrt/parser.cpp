@@ -153,16 +153,14 @@ std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::str
   return use;
 }
 
-std::optional<Transform> Parser::placement(const SourceLoc& loc, std::string_view what) {
-  if (state.ctm.is_moving())
-    diagnostics.unsupported(loc, fmt::format("motion blur (this {} has two transforms)", what), "the start transform");
-  const Transform& t = state.ctm.start;
-  if (t.is_singular()) {
+std::optional<TransformPair> Parser::placement(const SourceLoc& loc, std::string_view what) {
+  const TransformPair& t = state.ctm;
+  if (t.start.is_singular() || t.end.is_singular()) {
     diagnostics.error(loc, fmt::format("the transform of this {} is singular", what),
                       "it squeezes space flat, so it has no inverse: look for a Scale by 0 or a broken matrix");
     return {};
   }
-  if (!t.is_affine()) {
+  if (!t.start.is_affine() || !t.end.is_affine()) {
     diagnostics.error(loc, fmt::format("the transform of this {} is not affine", what),
                       "the last row of its matrix must be 0 0 0 1");
     return {};

@@ -37,8 +37,8 @@ class Parser {
   // The same, with colours of the current ColorSpace.
   std::optional<ModelUse> model_arguments(const Token& directive, std::string_view what, ColorRole role);
 
-  // The current transform for something placed in the world; reports motion and, returning nothing, singular ones.
-  std::optional<Transform> placement(const SourceLoc& loc, std::string_view what);
+  // The current transform for something placed in the world; reports singular ones and returns nothing.
+  std::optional<TransformPair> placement(const SourceLoc& loc, std::string_view what);
   // Adds the defaults that `Attribute` gave for this target.
   void add_defaults(AttributeTarget target, Family family, ModelUse& use) const;
 
@@ -57,6 +57,7 @@ class Parser {
   std::map<std::string, TransformPair> coordinate_systems;
   int object = -1;  // being defined; index into the scene's objects
   std::optional<int32_t> seed;
+  SourceLoc transform_times;  // of the directive; file -1: not given
   bool any_directive = false;
   bool world_begun = false;    // WorldBegin was read
   bool world_implied = false;  // it was missing, which has been reported

@@ -68,7 +68,7 @@ void shape(Parser& p, const Token& d) {
   if (!use) return;
   p.add_defaults(AttributeTarget::kShape, Family::kShape, *use);
   std::optional<ModelUse> supported = make_supported(Family::kShape, std::move(*use), p.diagnostics);
-  const std::optional<Transform> to_world = p.placement(d.loc, "shape");
+  const std::optional<TransformPair> to_world = p.placement(d.loc, "shape");
   if (!supported || !to_world) return;
   std::vector<ShapeDesc>& shapes =
       p.object >= 0 ? p.scene.objects[static_cast<size_t>(p.object)].shapes : p.scene.shapes;
@@ -85,7 +85,7 @@ void light_source(Parser& p, const Token& d) {
   if (!use) return;
   p.add_defaults(AttributeTarget::kLight, Family::kLight, *use);
   std::optional<ModelUse> supported = make_supported(Family::kLight, std::move(*use), p.diagnostics);
-  const std::optional<Transform> to_world = p.placement(d.loc, "light");
+  const std::optional<TransformPair> to_world = p.placement(d.loc, "light");
   if (supported && to_world) p.scene.lights.push_back({std::move(*supported), *to_world});
 }
 
@@ -118,6 +118,8 @@ void texture(Parser& p, const Token& d) {
     p.diagnostics.error(kind->loc,
                         fmt::format("a texture is of kind \"float\" or \"spectrum\", not \"{}\"", kind->text),
                         old_texture_kind_hint(kind->text, kind->loc, p.diagnostics));
+  if (p.state.ctm.is_moving())
+    p.diagnostics.warning(name->loc, "textures do not move: this one uses the transform of the start");
   const bool is_float = kind->text == "float";
   p.add_defaults(AttributeTarget::kTexture, Family::kTexture, *use);
   if (is_float) reject_colors(*use, p.diagnostics);

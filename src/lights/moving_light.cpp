@@ -1,0 +1,65 @@
+// Lights described in a space that moves: at a ray's time they are that space's lights, seen from there.
+#include "lights/light.h"
+#include "shapes/placement.h"
+
+namespace etd {
+
+namespace {
+
+// Solid angle in the light's space per solid angle in the world around the unit vector w: |det M^-1| / |M^-1 w|^3.
+float solid_angle_stretch(const Placement& at, Vec3 w) {
+  const Affine& m = at.to_object;
+  const Vec3 v = m.vector(w);
+  return std::abs(dot(m.x, cross(m.y, m.z))) / (dot(v, v) * length(v));
+}
+
+// What lights read of a surface point.
+SurfacePoint to_object(const SurfacePoint& s, const Placement& at) {
+  SurfacePoint o = s;
+  o.p = at.to_object.point(s.p);
+  o.ng = o.ns = normalize(at.to_world.transposed(s.ng));
+  return o;
+}
+
+}  // namespace
+
+Light Light::moving(const AnimatedTransform& motion) const {
+  Light light = *this;
+  light.motion_ = &motion;
+  light.power_scale_ = is_infinite() || is_delta() ? 1.0f : static_cast<float>(motion.mean_area_scale());
+  return light;
+}
+
+std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, LightSampling sampling, float time) const {
+  const Placement at = placement_at(*motion_, time);
+  auto s = sample_still(at.to_object.point(p), u, sampling);
+  if (!s) return {};
+  if (is_infinite()) {
+    s->wi = normalize(at.to_world.vector(s->wi));
+    if (s->is_delta) return s;
+    // Looked up again for the direction as it was rounded, as rays that meet it otherwise do.
+    s->radiance = emitted(nullptr, -s->wi, p, time);
+    s->pdf = pdf_moving(p, s->wi, nullptr, sampling, time);
+  } else {
+    s->on_light = to_world(s->on_light, at);
+    const Vec3 d = s->on_light.p - p;
+    const float d2 = dot(d, d);
+    if (!(d2 > 0.0f)) return {};
+    s->wi = d * (1.0f / std::sqrt(d2));
+    if (s->is_delta) return s;
+    s->radiance = emitted(&s->on_light, -s->wi);
+    s->pdf *= solid_angle_stretch(at, s->wi);
+  }
+  if (is_black(s->radiance) || !(s->pdf > 0.0f) || !std::isfinite(s->pdf)) return {};
+  return s;
+}
+
+float Light::pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const {
+  const Placement at = placement_at(*motion_, time);
+  const Vec3 w = normalize(at.to_object.vector(wi));
+  const SurfacePoint seen = on_light ? to_object(*on_light, at) : SurfacePoint{};
+  const float pdf = pdf_still(at.to_object.point(p), w, on_light ? &seen : nullptr, sampling);
+  return pdf * solid_angle_stretch(at, wi);
+}
+
+}  // namespace etd

@@ -1,0 +1,118 @@
+#include "scene/place.h"
+
+#include <algorithm>
+
+namespace etd {
+
+namespace {
+
+// Where an object is: local is its part behind the last transform that moves.
+struct Place {
+  TransformPath path;  // to the world; moves, or is empty
+  Transform local;
+  int group = -1;  // of what stands still on this path, once there is something
+  SourceLoc loc;
+
+  Place then(const TransformPair& t, SourceLoc at) const {
+    Place inner = *this;
+    inner.loc = at;
+    inner.local = t.is_moving() ? Transform() : local * t.start;
+    if (!t.is_moving()) return inner;
+    inner.path = full().then(t);
+    inner.group = -1;
+    return inner;
+  }
+  TransformPath full() const { return local.is_identity() ? path : path.then(local); }
+};
+
+class Placer {
+ public:
+  explicit Placer(const SceneDescription& description)
+      : description_(description), placed_(description.objects.size()) {}
+
+  PlacedShapes run() {
+    add(description_.shapes, description_.instances, {});
+    // Objects only contain earlier ones, so going backwards every place is known before its object is reached.
+    for (size_t o = description_.objects.size(); o-- > 0;) {
+      const ObjectDesc& object = description_.objects[o];
+      if (placed_[o].size() > 1 && !emits(object)) {
+        ShapeGroup group{{}, instances(placed_[o], Transform(), Transform()), true};
+        expand(object, Transform(), placed_[o], group);
+        out_.groups.push_back(std::move(group));
+      } else {
+        for (const Place& place : placed_[o]) add(object.shapes, object.instances, place);
+      }
+    }
+    std::reverse(out_.groups.begin(), out_.groups.end());
+    return std::move(out_);
+  }
+
+ private:
+  bool emits(const ObjectDesc& object) const {
+    const auto child_emits = [&](const InstanceDesc& i) {
+      return emits(description_.objects[static_cast<size_t>(i.object)]);
+    };
+    return std::any_of(object.shapes.begin(), object.shapes.end(),
+                       [](const ShapeDesc& s) { return s.area_light >= 0; }) ||
+           std::any_of(object.instances.begin(), object.instances.end(), child_emits);
+  }
+
+  // The content of what is in one place.
+  void add(const std::vector<ShapeDesc>& shapes, const std::vector<InstanceDesc>& instances, Place place) {
+    for (const ShapeDesc& s : shapes) {
+      if (s.to_world.is_moving()) {
+        Place own = place.then(s.to_world, s.use.loc);
+        add_moving(s, own);
+      } else if (place.path.moves()) {
+        add_moving(s, place, s.to_world.start);
+      } else {
+        out_.world.push_back({&s, place.local * s.to_world.start});
+      }
+    }
+    for (const InstanceDesc& i : instances)
+      placed_[static_cast<size_t>(i.object)].push_back(place.then(i.to_world, i.loc));
+  }
+
+  void add_moving(const ShapeDesc& shape, Place& place, const Transform& to_object = Transform()) {
+    const Transform size = TransformParts::of(place.path.at(0).matrix()).rest();
+    if (place.group < 0) {
+      place.group = static_cast<int>(out_.groups.size());
+      out_.groups.push_back({{}, {{place.path.then(size.inverse()), place.loc}}, false});
+    }
+    out_.groups[static_cast<size_t>(place.group)].shapes.push_back({&shape, size * place.local * to_object});
+  }
+
+  static std::vector<PlacedGroup> instances(const std::vector<Place>& places, const Transform& t,
+                                            const TransformPair& inner) {
+    std::vector<PlacedGroup> all;
+    for (const Place& p : places) all.push_back({p.then(t, p.loc).then(inner, p.loc).full(), p.loc});
+    return all;
+  }
+
+  // All that stands still in an object and in the objects in it goes to the group; what moves there gets its own.
+  void expand(const ObjectDesc& object, const Transform& t, const std::vector<Place>& places, ShapeGroup& group) {
+    for (const ShapeDesc& s : object.shapes) {
+      if (s.to_world.is_moving())
+        out_.groups.push_back({{{&s, Transform()}}, instances(places, t, s.to_world), true});
+      else
+        group.shapes.push_back({&s, t * s.to_world.start});
+    }
+    for (const InstanceDesc& i : object.instances) {
+      const auto child = static_cast<size_t>(i.object);
+      if (!i.to_world.is_moving())
+        expand(description_.objects[child], t * i.to_world.start, places, group);
+      else
+        for (const Place& p : places) placed_[child].push_back(p.then(t, p.loc).then(i.to_world, i.loc));
+    }
+  }
+
+  const SceneDescription& description_;
+  std::vector<std::vector<Place>> placed_;  // by object
+  PlacedShapes out_;
+};
+
+}  // namespace
+
+PlacedShapes place_shapes(const SceneDescription& description) { return Placer(description).run(); }
+
+}  // namespace etd

@@ -1,0 +1,40 @@
+// Where the shapes of a description end up: in the world, or in groups that rays meet in a space of their own.
+#pragma once
+
+#include <vector>
+
+#include "core/animated_transform.h"
+#include "scene/description.h"
+
+namespace etd {
+
+// A shape of the description under the transform to the space in which rays will meet it.
+struct PlacedShape {
+  const ShapeDesc* shape;
+  Transform to_space;
+};
+
+struct PlacedGroup {
+  TransformPath to_world;
+  SourceLoc loc;
+};
+
+// Shapes that instances place in the world.
+struct ShapeGroup {
+  std::vector<PlacedShape> shapes;
+  std::vector<PlacedGroup> instances;
+  // Objects without lights that several instances place; otherwise the group is that of one thing that moves.
+  bool is_shared = false;
+};
+
+struct PlacedShapes {
+  std::vector<PlacedShape> world;
+  std::vector<ShapeGroup> groups;
+};
+
+// Flattens: what one instance places, or what emits, becomes part of the world, or, where it moves, of a group of its
+// own, so that a light is one surface in one place. What stands still in such a group has the size there that it has
+// in the world when the motion starts: rigid motions then only turn and translate it.
+PlacedShapes place_shapes(const SceneDescription& description);
+
+}  // namespace etd
