@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/animated_transform.h"
-#include "shapes/affine.h"
+#include "core/affine.h"
 #include "shapes/surface_point.h"
 
 namespace etd {
