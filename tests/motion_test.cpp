@@ -216,8 +216,7 @@ TEST(Motion, RaysMeetWhatIsThereAtTheirTime) {
         EXPECT_EQ(moving.occluded(ray), found);
         const bool should = still.intersect(ray, expected);
         if (found != should || hit.geometry != expected.geometry || hit.primitive != expected.primitive ||
-            hit.instance != expected.instance ||
-            std::abs(hit.t - expected.t) > 1e-4f) {
+            hit.instance != expected.instance || std::abs(hit.t - expected.t) > 1e-4f) {
           ++disagreements;  // edges
           continue;
         }

@@ -29,8 +29,8 @@ class Camera {
   template <class T>
   explicit Camera(const T& camera);
 
-  // When rays start, with 0 and 1 the start and the end of the scene's motion; before and after they are those. A motion
-  // carries the camera from the space in which it was made.
+  // When rays start, with 0 and 1 the start and the end of the scene's motion; before and after they are those. A
+  // motion carries the camera from the space in which it was made.
   void set_motion(const Shutter& shutter, std::optional<AnimatedTransform> motion);
 
   // A ray of unit direction, weighted 1.

@@ -217,8 +217,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      add(depth + 1, beta * next_event(scene_, lights, {point, scatter, wo}, settings_, sampler, rng, ray.time, out,
-                                       recorder));
+      add(depth + 1,
+          beta * next_event(scene_, lights, {point, scatter, wo}, settings_, sampler, rng, ray.time, out, recorder));
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.

@@ -46,14 +46,14 @@ class Light {
                                        float time = 0) const;
   // Solid-angle density with which sample_li makes wi, 0 where it makes none and for delta lights; `on_light` is the
   // point met there, null for infinite lights.
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light,
-               LightSampling sampling = LightSampling::kComplete, float time = 0) const;
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling = LightSampling::kComplete,
+               float time = 0) const;
   // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w from the
   // point `seen_from`, on which that of a light behind a portal depends. 0 for delta lights.
   Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}, float time = 0) const;
-  // Emitted power of finite lights, W (per lane), its mean over time where they grow, or what comes in through a portal.
-  // Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk, over all
-  // directions.
+  // Emitted power of finite lights, W (per lane), its mean over time where they grow, or what comes in through a
+  // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,
+  // over all directions.
   Spectrum power() const;
   // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
   uint32_t kind() const { return storage_.tag; }

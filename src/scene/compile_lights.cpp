@@ -159,10 +159,9 @@ void compile_lights(const SceneDescription& description, Scene& scene, Diagnosti
     const auto light =
         desc.to_world.is_moving()
             ? make_moving_light(desc, description.folder, scene, diagnostics)
-            : make_light(
-                  desc.use,
-                  {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
-                  diagnostics);
+            : make_light(desc.use,
+                         {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
+                         diagnostics);
     if (!light) continue;
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));

@@ -11,8 +11,8 @@ namespace etd {
 
 struct Mesh {
   std::vector<Point3> positions;  // of all motion steps, one step after the other
-  std::vector<Vec3> normals;  // empty or one unit normal per position (or zero: the face's)
-  std::vector<Vec2> uvs;      // empty or one per vertex, the same at all steps
+  std::vector<Vec3> normals;      // empty or one unit normal per position (or zero: the face's)
+  std::vector<Vec2> uvs;          // empty or one per vertex, the same at all steps
   std::vector<std::array<uint32_t, 3>> triangles;
   // ReverseOrientation xor mirroring transform: turns the geometric normal of a mesh without normals.
   bool flip_ng = false;

@@ -2,8 +2,8 @@
 // it is there.
 #pragma once
 
-#include "core/animated_transform.h"
 #include "core/affine.h"
+#include "core/animated_transform.h"
 #include "shapes/surface_point.h"
 
 namespace etd {

@@ -45,7 +45,8 @@ struct Face {
         continue;
       }
       const Moment at(mesh, time);
-      const Vec3d a = as_vector(mesh.positions[at.first + index[i]]), b = as_vector(mesh.positions[at.second + index[i]]);
+      const Vec3d a = as_vector(mesh.positions[at.first + index[i]]),
+                  b = as_vector(mesh.positions[at.second + index[i]]);
       p[i] = Point3d{} + at(a, b);
       for (int c = 0; c < 3; ++c) moving[c] = std::max({moving[c], std::abs(a[c]), std::abs(b[c])});
     }

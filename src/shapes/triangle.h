@@ -13,8 +13,7 @@ namespace etd {
 // alone: the error that an instance's transform adds (accel/surface.h). ng follows the winding, turned by
 // Mesh::flip_ng; on a mesh with normals it lies on the side of the interpolated normal. Without uvs the vertices have
 // (0,0), (1,0), (1,1). A triangle of no area has an arbitrary, finite ng.
-SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time = 0,
-                            float margin = 0);
+SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time = 0, float margin = 0);
 // The point alone, and where the barycentrics put it.
 Point3 triangle_position(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time = 0);
 

@@ -19,7 +19,7 @@ inline constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "
                                                                       "texture"};
 
 struct GraphicsState {
-  TransformPair ctm;  // the current transform
+  TransformPair ctm;                            // the current transform
   bool start_active = true, end_active = true;  // which of the two the transform directives change
   bool reverse_orientation = false;
   ColorSpace color_space = ColorSpace::kSrgb;  // of rgb values that follow

@@ -131,8 +131,7 @@ std::string pbrt_coverage_markdown() {
       "and\n"
       "what is named here is rendered instead.\n" +
       unsupported_models_table() + unsupported_params_table();
-  out +=
-      "\nBesides: media (`MakeNamedMedium`, `MediumInterface` with a name; empty space).\n";
+  out += "\nBesides: media (`MakeNamedMedium`, `MediumInterface` with a name; empty space).\n";
   return out;
 }
 

@@ -95,15 +95,17 @@ void transform_times(Parser& p, const Token& d) {
   if (!v) return;
   const double start = (*v)[0], end = (*v)[1];
   if (!(end > start)) {
-    p.diagnostics.error(d.loc, fmt::format("TransformTimes takes a start and a later end, not {:g} and {:g}", start, end));
+    p.diagnostics.error(d.loc,
+                        fmt::format("TransformTimes takes a start and a later end, not {:g} and {:g}", start, end));
     return;
   }
   if (p.transform_times.file >= 0)
-    p.diagnostics.warning(d.loc, fmt::format("this TransformTimes replaces the one at {}:{}",
-                                             p.diagnostics.sources().name(p.transform_times.file),
-                                             p.transform_times.line));
+    p.diagnostics.warning(d.loc,
+                          fmt::format("this TransformTimes replaces the one at {}:{}",
+                                      p.diagnostics.sources().name(p.transform_times.file), p.transform_times.line));
   if (p.scene.camera_to_world.is_moving())
-    p.diagnostics.error(d.loc, "TransformTimes after a Camera that moves", "it holds for the camera too: write it first");
+    p.diagnostics.error(d.loc, "TransformTimes after a Camera that moves",
+                        "it holds for the camera too: write it first");
   p.transform_times = d.loc;
   p.scene.motion_start = start;
   p.scene.motion_end = end;
