@@ -23,7 +23,6 @@ struct RayCounts {
 struct PixelSample {
   float weight = 1;  // of the pixel filter, on everything; may be negative
   Spectrum emission, direct, indirect;
-  float weight = 1;  // of the pixel filter, by which the film multiplies the radiance; may be negative
   Spectrum albedo;
   Vec3 normal;         // shading normal in world space on the viewer's side
   Vec3 position;       // of that vertex, in the recentred world

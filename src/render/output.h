@@ -28,9 +28,12 @@ LayeredImage make_picture(const Film& film);
 
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
 // scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
-// is biased ("nothing" when nothing is) and what stopped it.
+// is biased ("nothing" when nothing is), invalid samples ("none" when there are none) and what stopped it.
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result);
+
+// "2 NaN, 1 infinite", or "none".
+std::string invalid_text(const InvalidSamples& invalid);
 
 // Writes one file in the format of its ending: all layers, or the picture alone (`exposure` in stops, for formats of
 // limited range). Returns what went wrong, or an empty string.
