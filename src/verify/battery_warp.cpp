@@ -110,8 +110,8 @@ Warp windowed_distribution() {
     const auto far = [](double cells) { return std::abs(cells - std::round(cells)) > 0.06; };
     return far(4.0 * p.x) && far(2.0 * p.y);
   };
-  return {"WindowedDistribution::sample", "4x2", point, [=](Vec2 u) { return grid->pdf(grid->sample(u, window), window); },
-          inside};
+  return {"WindowedDistribution::sample", "4x2", point,
+          [=](Vec2 u) { return grid->pdf(grid->sample(u, window), window); }, inside};
 }
 
 Warp visible_normals(float ax, float ay, Vec3 wo) {
