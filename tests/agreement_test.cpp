@@ -164,7 +164,8 @@ TEST(StatisticalAgreement, TheTableListsEveryComparison) {
     const std::vector<Variant> all = variants(scene);
     for (size_t i = 1; i < all.size(); ++i, ++count) {
       const std::string name = row_name(scene, all[i]);
-      const auto now = results().find(name), before = committed.find(name);
+      const auto now = results().find(name);
+      const auto before = committed.find(name);
       const bool known = before != committed.end();
       table += (now != results().end() ? now->second : known ? before->second : name) + "\n";
       EXPECT_TRUE(known || updates_expected())
