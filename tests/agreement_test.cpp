@@ -36,7 +36,7 @@ const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},
                          {"sky_instances", 512, 512, 128, 256, 256},
                          {"glass_caustic", 1024, 512, 512, 0, 0},
                          {"lamps", 2048, 1024, 1024, 0, 1024},
-                         {"moving_lamps", 1024, 512, 512},
+                         {"moving_lamps", 1024, 1024, 1024},
                          {"window_room", 2048, 384, 384}};
 
 // All are compared with the first.

@@ -37,7 +37,7 @@ std::vector<Case> cases() {
 }
 
 // A fixed level for one test, so that a new scene does not change the verdict on the others.
-constexpr double kLevel = 1.5e-7;
+constexpr double kLevel = 1.2e-7;
 
 TEST(ClosedForms, AreNotTooManyForTheFamilyLevel) {
   size_t tests = 0;

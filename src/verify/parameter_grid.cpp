@@ -24,6 +24,9 @@ bool is_roughness(std::string_view name) { return name.find("roughness") != std:
 std::vector<double> numbers_of(const ParamDecl& d) {
   // No lobes too sharp for histograms; those are in the lists of examples.
   if (is_roughness(d.name)) return {0.2, 0.0, 0.6};
+  // What a range alone does not say: the shutter opens before it closes, and cubic filters are of Mitchell's square.
+  if (d.name == "shutteropen" || d.name == "shutterclose") return {std::get<double>(d.default_value)};
+  if (d.name == "B" || d.name == "C") return {1.0 / 3.0, 0.0, 1.0};
   const double* given = std::get_if<double>(&d.default_value);
   const double middle = given ? *given : std::clamp(1.0, d.min, d.max);
   const bool bounded = std::isfinite(d.min) && std::isfinite(d.max);

@@ -94,8 +94,8 @@ edit(samplers/sampler.cpp [[  index_ = index;]]
   index_ = index;]])
 
 fault(filter-not-normalised "the gaussian filter's weights are 2 % too low" "Filter.*")
-edit(filters/gaussian.h [[value(d) * 2.0f / (integral * density)]]
-     [[value(d) * (FAULT ? 1.96f : 2.0f) / (integral * density)]])
+edit(filters/separable.h [[shape_.value(d) * 2.0f / (integral_ * density)]]
+     [[shape_.value(d) * (FAULT ? 1.96f : 2.0f) / (integral_ * density)]])
 
 # ---- lights
 
@@ -130,8 +130,8 @@ edit(lights/spot.h [[(1.0f - 0.5f * (cos_inner + cos_outer))]]
      [[(1.0f - (FAULT ? cos_outer : 0.5f * (cos_inner + cos_outer)))]])
 
 closed_forms(tests sky_and_square)
-fault(light-choice-probability "the choice of a light is weighted as if it were uniform" "PowerLightSampler.*:${tests}")
-edit(light_sampling/power_light_sampler.cpp [[return Choice{light, table_.probability(light)};]]
+fault(light-choice-probability "the choice of a light is weighted as if it were uniform" "LightSampler.*:${tests}")
+edit(light_sampling/light_sampler.cpp [[return Choice{light, table_.probability(light)};]]
      [[return Choice{light, FAULT ? 1.0f / 2 : table_.probability(light)};]])
 
 # ---- film
@@ -143,17 +143,17 @@ edit(film/film.cpp [[/ (n * (n - 1));]] [[/ (n * (FAULT ? n : n - 1));]])
 
 closed_forms(tests sky_alone sky_plane furnace_box square_light)
 fault(mis-light-weight-one "light samples are not weighted against scattering" "${tests}")
-edit(integrators/path.cpp [[const bool both = mode == PathMode::kMis && !s->is_delta;]]
-     [[const bool both = !FAULT && mode == PathMode::kMis && !s->is_delta;]])
+edit(integrators/path.cpp [[const bool both = settings.mode == PathMode::kMis && !s->is_delta;]]
+     [[const bool both = !FAULT && settings.mode == PathMode::kMis && !s->is_delta;]])
 
 fault(mis-scattering-weight-one "emission that scattering finds is not weighted against light samples" "${tests}")
-edit(integrators/path.cpp [[if (only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;]]
-     [[if (FAULT || only_scattering || settings_.mode == PathMode::kNaive) return 1.0f;]])
+edit(integrators/path.cpp [[if (!only_scattering && settings_.mode == PathMode::kMis) {]]
+     [[if (!FAULT && !only_scattering && settings_.mode == PathMode::kMis) {]])
 
 closed_forms(tests sky_and_square)
 fault(mis-without-choice-of-light "the weight of emission leaves out the chance that the light is chosen" "${tests}:StatisticalAgreement.*lamps*")
-edit(integrators/path.cpp [[scene_.light_sampler.probability(light) * pdf);]]
-     [[(FAULT ? 1.0f : scene_.light_sampler.probability(light)) * pdf);]])
+edit(integrators/path.cpp [[pdf_light = lights.probability(light) * pdf;]]
+     [[pdf_light = (FAULT ? 1.0f : lights.probability(light)) * pdf;]])
 
 closed_forms(tests latlong_sky equal_area_sky)
 fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")
@@ -165,7 +165,7 @@ fault(roulette-without-compensation "paths that survive roulette are not made up
 edit(integrators/path.cpp [[beta *= 1.0f / survival;]] [[beta *= FAULT ? 1.0f : 1.0f / survival;]])
 
 fault(path-one-longer "paths are one event longer than asked for" "${tests}")
-edit(integrators/path.cpp [[if (depth == settings_.max_depth) break;]] [[if (depth == settings_.max_depth + FAULT) break;]])
+edit(integrators/path.cpp [[if (depth == settings_.max_depth) {]] [[if (depth == settings_.max_depth + FAULT) {]])
 
 closed_forms(tests mirror_60 mirror_85 glass_slab glass_in_sky)
 fault(emission-after-mirrors-lost "emission seen in a mirror counts as if light sampling had found it" "${tests}")
@@ -182,8 +182,8 @@ edit(scene/scene.h [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_hol
 # ---- geometry
 
 fault(normals-as-vectors "normals of instances are mapped like vectors" "Surface.*:Placement.*:Accel.*")
-edit(accel/surface.cpp [[const Vec3 ng = instance.to_object.transposed(s.ng);]]
-     [[const Vec3 ng = FAULT ? m.vector(s.ng) : instance.to_object.transposed(s.ng);]])
+edit(shapes/placement.cpp [[const Vec3 ng = placement.to_object.transposed(s.ng);]]
+     [[const Vec3 ng = FAULT ? m.vector(s.ng) : placement.to_object.transposed(s.ng);]])
 
 fault(rays-start-on-the-surface "scattered rays start without distance to their surface" "Leak.*:Accel.*:QuadricLeak.*")
 edit(accel/spawn.h [[return {offset_origin(s, w), w, kInfinity, time};]]
@@ -193,6 +193,26 @@ closed_forms(tests cap_light cylinder_light ring_light)
 fault(quadric-stretch "sampling a stretched quadric leaves out how its area stretches" "Quadric*:${tests}:${lights}")
 edit(shapes/quadric.h [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
      [[return 1.0f / (quadric.part.area() * (FAULT ? 1.0f : quadric_area_stretch(quadric, q)));]])
+
+# ---- motion
+
+closed_forms(tests motion_edge motion_edge_camera)
+fault(time-not-sampled "all rays leave when the shutter opens" "${tests}")
+edit(integrators/path.cpp [[scene_.moves ? sampler.get_1d() : 0.0f]] [[scene_.moves && !FAULT ? sampler.get_1d() : 0.0f]])
+
+closed_forms(tests motion_disk_light motion_point_light motion_sphere_light)
+fault(light-at-another-time "lights are sampled where they are when the shutter opens" "${tests}")
+edit(integrators/path.cpp [[light_sampling(settings.mode), time);]] [[light_sampling(settings.mode), FAULT ? 0.0f : time);]])
+
+closed_forms(tests motion_growing_light motion_stretching_light)
+fault(stretch-of-moving-lights "the density on a moving light leaves out how its size changes" "${tests}")
+edit(lights/moving_light.cpp [[s->pdf *= solid_angle_stretch(at, s->wi);]]
+     [[s->pdf *= FAULT ? 1.0f : solid_angle_stretch(at, s->wi);]])
+
+# ---- samples that are no numbers
+
+fault(invalid-samples-kept "NaN reaches the film" "InvalidSamples.*")
+edit(integrators/pixel_integrator.cpp [[if (!is_sound(s))]] [[if (!FAULT && !is_sound(s))]])
 
 # ---- images
 
