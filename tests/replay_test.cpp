@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/flush_to_zero.h"
+#include "film/invalid_samples.h"
 #include "formats/pbrt/reader.h"
 #include "io/image_write.h"
 #include "render/overrides.h"
@@ -30,7 +31,7 @@ struct Prepared {
     render = prepare_render(read_pbrt(source_path(file), diagnostics), overrides, diagnostics);
     EXPECT_TRUE(render) << diagnostics.format_all();
   }
-  ReplayedScene scene() const { return {*render->scene, diagnostics.sources()}; }
+  ReplayedScene scene() const { return {*render->scene, diagnostics.sources(), render->settings.sensor}; }
   PathRecord replay(const SampleId& id) const {
     PathRecord path;
     EXPECT_TRUE(render->integrator->replay(id, path));
@@ -95,7 +96,10 @@ void expect_replays(const std::string& file, const RenderOverrides& overrides) {
             EXPECT_EQ(path.index, index);
             expect_same_light(sum_of_contributions(path), path.sample, where);
             lit += is_black(path.sample.emission + path.sample.direct + path.sample.indirect) ? 0 : 1;
-            sums.add(path.sample);
+            PixelSample exposed = path.sample;
+            InvalidSamples none;
+            admit(path.id, s.sensor, exposed, none);
+            sums.add(exposed);
           }
           all += sums;
         }
@@ -122,6 +126,12 @@ TEST(Replay, TellsTheImageBitForBitInEveryMode) {
       SCOPED_TRACE(mode);
       expect_replays(fmt::format("tests/scenes/agree/{}.pbrt", scene), small(mode));
     }
+}
+
+TEST(Replay, GoesThroughTheFilmsSensor) {
+  RenderOverrides o = small("mis");
+  o.set = {{"film.iso", "300"}, {"film.whitebalance", "4000"}, {"film.maxcomponentvalue", "0.5"}};
+  expect_replays("tests/scenes/agree/lamps.pbrt", o);
 }
 
 TEST(Replay, FollowsCropReplicatesSamplerAndComponents) {
@@ -172,10 +182,10 @@ TEST(Replay, ThePrintedContributionsAddUpToThePrintedSum) {
         EXPECT_EQ(json["sum"][component][static_cast<size_t>(i)], printed[0][i]);
       }
     }
-    const auto received = received_by_film(path);
+    const Received received = received_by_film(path, prepared.scene());
     PixelSums sums;
-    EXPECT_EQ(sums.add(path.sample), received[3]);
-    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(json["received"]["rgb"][i], received[i]);
+    EXPECT_EQ(sums.add(path.sample), received.luminance);
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(json["received"]["rgb"][i], received.rgb[i]);
     EXPECT_EQ(json["valid"], true);
   }
   EXPECT_GT(contributions, 20u);
@@ -206,7 +216,7 @@ TEST(Replay, NamesWhatThePathMeets) {
   o.spp = 64;
   const auto prepared = prepare_render(read_pbrt_text(kScene, "ball.pbrt", ".", diagnostics), o, diagnostics);
   ASSERT_TRUE(prepared) << diagnostics.format_all();
-  const ReplayedScene in{*prepared->scene, diagnostics.sources()};
+  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
   size_t red = 0, blue = 0, lamp = 0, sky = 0;
   for (uint32_t n = 0; n < 64; ++n) {
     PathRecord path;
@@ -254,8 +264,8 @@ TEST(Replay, ShowsInvalidSamplesAsTheyAre) {
   PathRecord path;
   ASSERT_TRUE(prepared->integrator->replay(*invalid.first, path));
   EXPECT_FALSE(is_sound(path.sample));
-  EXPECT_EQ(received_by_film(path), (std::array<double, 4>{}));
-  const ReplayedScene in{*prepared->scene, diagnostics.sources()};
+  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
+  EXPECT_EQ(received_by_film(path, in).rgb, (std::array<double, 3>{}));
   const std::string text = replay_text(path, in);
   EXPECT_NE(text.find("sum         emission (inf, inf, inf)"), std::string::npos) << text;
   EXPECT_NE(text.find("the sample is invalid"), std::string::npos) << text;
@@ -281,7 +291,7 @@ TEST(Provenance, ComesBackFromTheFile) {
   o.seed = 12345678901234567890u;
   o.replicates = 4;
   o.sampler = "independent";
-  o.set = {{"integrator.mode", "naive"}, {"film.filename", "it's a name.exr"}};
+  o.set = {{"integrator.mode", "naive"}, {"film.iso", "250"}, {"film.filename", "it's a name.exr"}};
   Prepared prepared("tests/scenes/agree/lamps.pbrt", o);
   const FinishedRender finished = prepared.run();
   const auto path = folder.path() / "a.exr";
@@ -294,7 +304,8 @@ TEST(Provenance, ComesBackFromTheFile) {
   EXPECT_EQ(p->scene_hash, prepared.render->scene_hash);
   EXPECT_EQ(p->options, (std::vector<std::string>{"--size", "40x30", "--spp", "16", "--replicates", "4", "--seed",
                                                   "12345678901234567890", "--sampler", "independent", "--set",
-                                                  "integrator.mode=naive", "--set", "film.filename=it's a name.exr"}));
+                                                  "integrator.mode=naive", "--set", "film.iso=250", "--set",
+                                                  "film.filename=it's a name.exr"}));
   const std::vector<SampleStrength> strongest = strongest_samples(finished.film, kStrongestKept);
   ASSERT_EQ(p->strongest.size(), strongest.size());
   ASSERT_EQ(strongest.size(), kStrongestKept);
@@ -303,13 +314,14 @@ TEST(Provenance, ComesBackFromTheFile) {
     EXPECT_EQ(float_bits(p->strongest[i].luminance), float_bits(strongest[i].luminance));
     EXPECT_NEAR(p->strongest[i].share, strongest[i].share, 1e-5 * std::abs(strongest[i].share));
     const PathRecord replayed = prepared.replay(strongest[i].id);
-    EXPECT_EQ(static_cast<float>(received_by_film(replayed)[3]), strongest[i].luminance);
+    EXPECT_EQ(static_cast<float>(received_by_film(replayed, prepared.scene()).luminance), strongest[i].luminance);
   }
-  EXPECT_EQ(replay_command(*prepared.render, finished.result, {3, 4, 5}),
-            fmt::format("etendue replay {} --pixel 3,4 --sample 5 --size 40x30 --spp 16 --replicates 4 --seed "
-                        "12345678901234567890 --sampler independent --set integrator.mode=naive --set "
-                        "'film.filename=it'\\''s a name.exr'",
-                        source_path("tests/scenes/agree/lamps.pbrt").string()));
+  EXPECT_EQ(
+      replay_command(*prepared.render, finished.result, {3, 4, 5}),
+      fmt::format("etendue replay {} --pixel 3,4 --sample 5 --size 40x30 --spp 16 --replicates 4 --seed "
+                  "12345678901234567890 --sampler independent --set integrator.mode=naive --set film.iso=250 --set "
+                  "'film.filename=it'\\''s a name.exr'",
+                  source_path("tests/scenes/agree/lamps.pbrt").string()));
   EXPECT_FALSE(read_provenance(LayeredImage()));
 }
 

@@ -135,7 +135,7 @@ int replay_fireflies(const Arguments& args, const Provenance& image, const Prepa
     if (const std::string problem = sample_problem(s.id, prepared.settings); !problem.empty()) return fail(problem);
     PathRecord path;
     if (!prepared.integrator->replay(s.id, path)) return fail("this integrator has no samples that can be drawn alone");
-    const bool same = static_cast<float>(received_by_film(path)[3]) == s.luminance;
+    const bool same = static_cast<float>(received_by_film(path, in).luminance) == s.luminance;
     changed += same ? 0 : 1;
     if (args.json) {
       rows.push_back(fmt::format("{{\"luminance\": {}, \"share\": {}, \"reproduced\": {}, \"path\": {}}}", s.luminance,
@@ -176,7 +176,7 @@ int replay(const Arguments& args) {
   if (task.image && task.image->version != version())
     warn(fmt::format("the image is of version {}, this is {}", task.image->version, version()));
 
-  const ReplayedScene in{*prepared->scene, diagnostics.sources()};
+  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
   if (args.fireflies) return replay_fireflies(args, *task.image, *prepared, in);
   return replay_one({args.pixel->first, args.pixel->second, *args.sample}, *prepared, in, args.json);
 }

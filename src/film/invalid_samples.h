@@ -7,6 +7,7 @@
 
 #include "film/pixel_sample.h"
 #include "film/sample_id.h"
+#include "film/sensor.h"
 
 namespace etd {
 
@@ -26,5 +27,12 @@ struct InvalidSamples {
   void take_out(const SampleId& id, PixelSample& s);
   InvalidSamples& operator+=(const InvalidSamples& b);
 };
+
+// Makes of a sample what the film adds up: exposed, or taken out where it is not sound or its exposure exceeds a float.
+inline void admit(const SampleId& id, const Sensor& sensor, PixelSample& s, InvalidSamples& invalid) {
+  const bool sound = is_sound(s);
+  if (sound) sensor.expose(s);
+  if (!sound || !is_finite((s.emission + s.direct + s.indirect) * s.weight)) invalid.take_out(id, s);
+}
 
 }  // namespace etd

@@ -53,8 +53,7 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCoun
         for (uint32_t index = pass.begin; index < pass.end; ++index) {
           PixelSample s = sample(x, y, replicate, index);
           const uint32_t number = index * context_.replicates + replicate;
-          if (!is_sound(s)) counts.invalid.take_out({x, y, number}, s);
-          film.settings().sensor.expose(s);
+          admit({x, y, number}, film.settings().sensor, s, counts.invalid);
           strongest.offer({static_cast<float>(sums.add(s)), number});
           counts.rays += s.rays;
         }

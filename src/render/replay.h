@@ -4,19 +4,26 @@
 #include <array>
 #include <string>
 
+#include "film/sensor.h"
 #include "integrators/path_record.h"
 #include "params/source.h"
 
 namespace etd {
 
-// What a path refers to: its scene, and the files that the scene was read from.
+// What a path refers to: its scene, the files that the scene was read from, and the film.
 struct ReplayedScene {
   const Scene& scene;
   const Sources& sources;
+  const Sensor& sensor;
 };
 
-// R, G, B and Y that the film received: black of an invalid sample.
-std::array<double, 4> received_by_film(const PathRecord& path);
+// What the film received of a sample; black of an invalid one.
+struct Received {
+  std::array<double, 3> rgb{};
+  double luminance = 0;
+  bool valid = true;
+};
+Received received_by_film(const PathRecord& path, const ReplayedScene& in);
 
 // Every vertex with what was computed there, every contribution, their sum, and what the film received. Radiance is
 // written so that it reads back as the same bits.

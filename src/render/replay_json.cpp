@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "film/invalid_samples.h"
 #include "render/path_names.h"
 #include "render/replay.h"
 
@@ -104,9 +103,9 @@ std::string replay_json(const PathRecord& path, const ReplayedScene& in) {
   j["end"] = end_text(path.end);
   j["sum"] = {{"emission", json(s.emission)}, {"direct", json(s.direct)}, {"indirect", json(s.indirect)}};
   j["filter_weight"] = number(s.weight);
-  j["valid"] = is_sound(s);
-  const auto received = received_by_film(path);
-  j["received"] = {{"rgb", {received[0], received[1], received[2]}}, {"luminance", received[3]}};
+  const Received film = received_by_film(path, in);
+  j["valid"] = film.valid;
+  j["received"] = {{"rgb", film.rgb}, {"luminance", film.luminance}};
   return j.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -116,9 +116,10 @@ class Table {
     line("\nsum         emission {}", exact(s.emission));
     line("            direct   {}", exact(s.direct));
     line("            indirect {}", exact(s.indirect));
-    const auto [r, g, b, y] = received_by_film(path_);
-    line("film        ({}, {}, {})  luminance {}  (the sum times the filter's weight {})", r, g, b, y, s.weight);
-    if (!is_sound(s)) line("            the sample is invalid: the film received black instead");
+    const Received film = received_by_film(path_, in_);
+    line("film        ({}, {}, {})  luminance {}  (the sum, exposed, times the filter's weight {})", film.rgb[0],
+         film.rgb[1], film.rgb[2], film.luminance, s.weight);
+    if (!film.valid) line("            the sample is invalid: the film received black instead");
   }
 
   const PathRecord& path_;
@@ -158,13 +159,14 @@ std::string step(const PathVertex& v, const ReplayedScene& in) {
 
 }  // namespace
 
-std::array<double, 4> received_by_film(const PathRecord& path) {
+Received received_by_film(const PathRecord& path, const ReplayedScene& in) {
   PixelSample sample = path.sample;
   InvalidSamples invalid;
-  if (!is_sound(sample)) invalid.take_out(path.id, sample);
+  admit(path.id, in.sensor, sample, invalid);
   PixelSums sums;
-  sums.add(sample);
-  return sums.mean_radiance();
+  const double luminance = sums.add(sample);
+  const std::array<double, 4> mean = sums.mean_radiance();
+  return {{mean[0], mean[1], mean[2]}, luminance, invalid.total() == 0};
 }
 
 std::string replay_text(const PathRecord& path, const ReplayedScene& in) { return Table(path, in).text_of_all(); }
