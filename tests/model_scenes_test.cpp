@@ -221,6 +221,17 @@ const Unseen kUnseen[] = {
     {Family::kMaterial, "", "nsamples", "the noise"},
     {Family::kTexture, "imagemap", "filter", "its filters read the finest level until mip levels come"},
     {Family::kFilm, "", "filename", "where the picture goes"},
+    {Family::kFilm, "", "savefp16", "how the picture is written"},
+    {Family::kFilm, "", "sensor", "there is one only"},
+    {Family::kFilm, "gbuffer", "coordinatesystem", "changes no light; the tests of sensors look at its layers"},
+    {Family::kFilm, "gbuffer", "xresolution", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "yresolution", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "cropwindow", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "pixelbounds", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "iso", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "exposuretime", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "whitebalance", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "maxcomponentvalue", "the same as of the film \"rgb\""},
 };
 
 using Shown = std::array<std::string, 4>;  // family, model, parameter, value

@@ -225,7 +225,7 @@ ActiveTransform StartTime
 ActiveTransform All
 MediumInterface "" ""
 Camera "spherical" "float lensradius" 0.5 "float focaldistance" 10 "float shutteropen" 0 "float shutterclose" 1
-Film "rgb" "float iso" 100 "string sensor" "cie1931" "float diagonal" 35 "float whitebalance" 0
+Film "rgb" "float diagonal" 35
 WorldBegin
 Shape "trianglemesh" "integer faceIndices" 1
 Material "dielectric" "float roughness" 0 "bool remaproughness" true)");

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "film/rgb_film.h"
+#include "film/film_model.h"
 #include "render/duration.h"
 #include "render/registry.h"
 

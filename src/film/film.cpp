@@ -36,18 +36,18 @@ size_t Film::offset(int x, int y, uint32_t replicate) const {
   const PixelBounds& c = settings_.crop;
   assert(x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1 && replicate < settings_.replicates);
   const size_t pixel = static_cast<size_t>(y - c.y0) * static_cast<size_t>(c.width()) + static_cast<size_t>(x - c.x0);
-  return (pixel * settings_.replicates + replicate) * film_channels(settings_.features);
+  return (pixel * settings_.replicates + replicate) * film_channels(settings_);
 }
 
 void Film::add(int x, int y, uint32_t replicate, const PixelSums& sums) {
   double* to = sums_.data() + offset(x, y, replicate);
-  for_each_channel(sums, settings_.features, [&to](double v) { *to++ += v; });
+  for_each_channel(sums, settings_, [&to](double v) { *to++ += v; });
 }
 
 PixelSums Film::sums(int x, int y, uint32_t replicate) const {
   PixelSums result;
   const double* from = sums_.data() + offset(x, y, replicate);
-  for_each_channel(result, settings_.features, [&from](double& v) { v = *from++; });
+  for_each_channel(result, settings_, [&from](double& v) { v = *from++; });
   return result;
 }
 
@@ -87,7 +87,7 @@ std::array<double, 4> Film::standard_error(int x, int y) const {
 size_t Film::bytes() const { return sums_.size() * sizeof(double); }
 
 size_t Film::bytes_for(const FilmSettings& s) {
-  return pixel_count(s.crop) * s.replicates * film_channels(s.features) * sizeof(double);
+  return pixel_count(s.crop) * s.replicates * film_channels(s) * sizeof(double);
 }
 
 }  // namespace etd

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/bounds.h"
+#include "core/transform.h"
 #include "film/pixel_sample.h"
+#include "film/sensor.h"
 
 namespace etd {
 
@@ -16,7 +18,10 @@ struct FilmSettings {
   int width = 0, height = 0;  // of the full image
   PixelBounds crop;           // the pixels kept
   uint32_t replicates = 2;
-  bool features = true;  // albedo, normal, depth, coverage
+  bool features = true;       // albedo, normal, depth, coverage
+  bool positions = false;     // beside the features, if there are any
+  Transform feature_space{};  // from the recentred world to the space of the layers of normals and positions
+  Sensor sensor{};            // through which samples go before they are added
 };
 
 class Film {

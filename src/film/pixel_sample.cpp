@@ -3,21 +3,23 @@
 namespace etd {
 
 void PixelSums::add(const PixelSample& s) {
+  const double w = s.weight;
   std::array<double, 4> radiance;
   for (size_t i = 0; i < 3; ++i) {
     const int lane = static_cast<int>(i);
-    const double e = s.emission[lane], d = s.direct[lane], n = s.indirect[lane];
+    const double e = w * s.emission[lane], d = w * s.direct[lane], n = w * s.indirect[lane];
     emission[i] += e;
     direct[i] += d;
     indirect[i] += n;
-    albedo[i] += s.albedo[lane];
-    normal[i] += s.normal[lane];
+    albedo[i] += w * s.albedo[lane];
+    normal[i] += w * s.normal[lane];
+    position[i] += w * s.position[lane];
     radiance[i] = e + d + n;
   }
   radiance[3] = luminance(radiance[0], radiance[1], radiance[2]);
   for (size_t i = 0; i < 4; ++i) squares[i] += radiance[i] * radiance[i];
-  depth += s.depth;
-  coverage += s.coverage;
+  depth += w * s.depth;
+  coverage += w * s.coverage;
   count += 1;
   rays += static_cast<double>(s.rays.total());
 }
@@ -29,6 +31,7 @@ PixelSums& PixelSums::operator+=(const PixelSums& b) {
     indirect[i] += b.indirect[i];
     albedo[i] += b.albedo[i];
     normal[i] += b.normal[i];
+    position[i] += b.position[i];
   }
   for (size_t i = 0; i < 4; ++i) squares[i] += b.squares[i];
   depth += b.depth;

@@ -18,13 +18,15 @@ struct RayCounts {
   }
 };
 
-// Radiance split by path depth (0: emission, 1: direct, 2 and more: indirect), already divided by the sample's density
-// and weighted by the filter; features at the first non-delta vertex (zero on a miss).
+// Radiance split by path depth (0: emission, 1: direct, 2 and more: indirect), already divided by the sample's density;
+// features at the first non-delta vertex (zero on a miss).
 struct PixelSample {
+  float weight = 1;  // of the pixel filter, on everything; may be negative
   Spectrum emission, direct, indirect;
   Spectrum albedo;
   Vec3 normal;         // shading normal in world space on the viewer's side
-  float depth = 0;     // path length to that vertex, in metres
+  Vec3 position;       // of that vertex, in the recentred world
+  float depth = 0;     // path length to it, in metres
   float coverage = 0;  // 1 when such a vertex exists
   RayCounts rays;
 };
@@ -33,7 +35,7 @@ struct PixelSample {
 struct PixelSums {
   std::array<double, 3> emission{}, direct{}, indirect{};
   std::array<double, 4> squares{};  // of the samples' total R, G, B and luminance Y
-  std::array<double, 3> albedo{}, normal{};
+  std::array<double, 3> albedo{}, normal{}, position{};
   double depth = 0, coverage = 0;
   double count = 0, rays = 0;
 

@@ -1,5 +1,5 @@
-// The family of reconstruction filters, importance sampled: a sample lands where the filter says, and the pixel is the
-// plain mean of its samples.
+// The family of reconstruction filters, importance sampled: a sample lands where the absolute value of the filter says,
+// and the pixel is the plain mean of its weighted samples.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ inline constexpr double kMinFilterSize = 1e-6, kMaxFilterSize = 1e6;
 
 struct FilterSample {
   Vec2 offset;       // from the pixel's centre, in pixels
-  float weight = 1;  // filter / (its integral x density); mean 1
+  float weight = 1;  // filter / (its integral x density); mean 1, negative in negative lobes
 };
 
 class Filter {
@@ -31,7 +31,7 @@ class Filter {
   Vec2 radius() const;
 
  private:
-  TaggedStorage<1072> storage_;
+  TaggedStorage<1088> storage_;
 };
 
 std::span<const ModelDecl* const> filter_models();

@@ -121,7 +121,8 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
                         0.0f};
   Ray ray = scene_.camera.generate_ray(at);
 
-  Spectrum beta(film.weight);   // throughput: the product of f cos / pdf so far
+  out.weight = film.weight;
+  Spectrum beta(1.0f);          // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
@@ -169,6 +170,7 @@ PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
     if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
       out.albedo = bsdf.albedo(shading.frame.to_local(wo));
       out.normal = face_forward(shading.frame.z, wo);
+      out.position = point.p - Point3();
       out.depth = path_length;
       out.coverage = 1.0f;
       features_pending = false;

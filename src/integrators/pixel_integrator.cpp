@@ -31,7 +31,8 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, RayCount
       for (uint32_t replicate = 0; replicate < context_.replicates; ++replicate) {
         PixelSums sums;
         for (uint32_t index = pass.begin; index < pass.end; ++index) {
-          const PixelSample s = sample(x, y, replicate, index);
+          PixelSample s = sample(x, y, replicate, index);
+          film.settings().sensor.expose(s);
           sums.add(s);
           rays += s.rays;
         }

@@ -33,7 +33,8 @@ size_t texel_count(int width, int height) { return static_cast<size_t>(width) * 
 
 // Encodes in memory and writes the bytes ourselves: the encoders notice a full disk late, never, or by ending the
 // process.
-std::string encode_and_write(const fs::path& path, const OIIO::ImageSpec& spec, const void* pixels) {
+std::string encode_and_write(const fs::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                             const void* pixels) {
   prepare_oiio();
   const auto failed = [&path](std::string why) {
     while (!why.empty() && why.back() == '\n') why.pop_back();
@@ -44,7 +45,7 @@ std::string encode_and_write(const fs::path& path, const OIIO::ImageSpec& spec, 
     OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives the encoder, which may write when it is destroyed
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path.string());
     if (out == nullptr) return failed(OIIO::geterror());
-    if (!out->set_ioproxy(&memory) || !out->open(path.string(), spec) || !out->write_image(spec.format, pixels) ||
+    if (!out->set_ioproxy(&memory) || !out->open(path.string(), spec) || !out->write_image(type, pixels) ||
         !out->close()) {
       return failed(out->geterror());
     }
@@ -112,7 +113,15 @@ std::string write_8bit(const fs::path& path, int width, int height, std::span<co
     spec.attribute("Compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");
   }
-  return encode_and_write(path, spec, bytes.data());
+  return encode_and_write(path, spec, spec.format, bytes.data());
+}
+
+// Finite values stay finite as 16-bit floats.
+std::vector<float> within_half(std::vector<float> values) {
+  constexpr float kLargest = 65504;
+  for (float& v : values)
+    if (std::isfinite(v)) v = std::clamp(v, -kLargest, kLargest);
+  return values;
 }
 
 // Shared exponents hold neither negative numbers nor what is no number, and end at 2^127.
@@ -121,7 +130,7 @@ std::string write_hdr(const fs::path& path, int width, int height, std::span<con
   std::vector<float> values(rgb.size());
   std::transform(rgb.begin(), rgb.end(), values.begin(), [](float v) { return v > 0 ? std::min(v, kLargest) : 0.0f; });
   const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
-  return encode_and_write(path, spec, values.data());
+  return encode_and_write(path, spec, spec.format, values.data());
 }
 
 }  // namespace
@@ -152,7 +161,8 @@ std::string write_layers(const fs::path& path, const LayeredImage& image) {
   if (std::string error = check_layers(image); !error.empty()) {
     return fmt::format("cannot write {}: {}", path.string(), error);
   }
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), OIIO::TypeDesc::FLOAT);
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
+                       image.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.x = image.x;
   spec.y = image.y;
   spec.full_width = image.full_width;
@@ -160,7 +170,9 @@ std::string write_layers(const fs::path& path, const LayeredImage& image) {
   spec.channelnames = image.channels;
   spec.attribute("compression", "zip");
   for (const auto& [name, value] : image.metadata) add_metadata(spec, name, value);
-  return encode_and_write(path, spec, image.pixels.data());
+  const OIIO::TypeDesc given(OIIO::TypeDesc::FLOAT);
+  return image.half ? encode_and_write(path, spec, given, within_half(image.pixels).data())
+                    : encode_and_write(path, spec, given, image.pixels.data());
 }
 
 std::string write_rgb(const fs::path& path, int width, int height, std::span<const float> rgb, float exposure) {

@@ -23,6 +23,7 @@ struct LayeredImage {
   std::vector<std::string> channels;
   std::vector<float> pixels;  // rows from the top, channels interleaved in the order of `channels`
   std::vector<std::pair<std::string, MetadataValue>> metadata;
+  bool half = false;  // written with 16-bit floats
 
   // The index of a channel, -1 when there is none of this name.
   int find(std::string_view channel) const;
@@ -32,8 +33,8 @@ struct LayeredImage {
   const MetadataValue* find_metadata(std::string_view name) const;
 };
 
-// Writes an EXR: 32-bit floats, ZIP compression. Values arrive bit for bit, in any order of the channels. Returns what
-// went wrong, or an empty string.
+// Writes an EXR, ZIP compressed. 32-bit floats arrive bit for bit, in any order of the channels; 16-bit ones are
+// rounded, and finite values stay so. Returns what went wrong, or an empty string.
 std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
 
 // Every channel of an EXR's first part as floats. Of the metadata those that are a string, int, float or double, which

@@ -16,14 +16,16 @@ Rgb to_floats(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-std::vector<std::string> channel_names(bool features) {
+std::vector<std::string> channel_names(const FilmSettings& kept) {
   std::vector<std::string> names = {"R",        "G",        "B",        "emission.R", "emission.G", "emission.B",
                                     "direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B",
                                     "stderr.R", "stderr.G", "stderr.B", "stderr.Y"};
-  if (features)
-    for (const char* name :
-         {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "coverage.A"})
-      names.emplace_back(name);
+  if (!kept.features) return names;
+  for (const char* name :
+       {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "coverage.A"})
+    names.emplace_back(name);
+  if (kept.positions)
+    for (const char* name : {"position.X", "position.Y", "position.Z"}) names.emplace_back(name);
   return names;
 }
 
@@ -40,6 +42,21 @@ Radiance radiance(const PixelSums& sums) {
   return r;
 }
 
+Vec3d to_vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+// The mean normal in the space of the layers, whose transform may scale: unit normals stay of unit length there.
+Rgb normal_layer(const PixelSums& sums, const Transform& space) {
+  const Vec3d n = space.normal(to_vec(sums.mean(sums.normal))) * std::cbrt(std::abs(space.determinant3()));
+  return to_floats({n.x, n.y, n.z});
+}
+
+// The mean position in the space of the layers, where misses count as 0.
+Rgb position_layer(const PixelSums& sums, const Transform& space) {
+  const double coverage = sums.count > 0 ? sums.coverage / sums.count : 0.0;
+  const Vec3d p = space.vector(to_vec(sums.mean(sums.position))) + (space.point({}) - Point3d{}) * coverage;
+  return to_floats({p.x, p.y, p.z});
+}
+
 // The values of one pixel in the order of channel_names().
 void append_pixel(const Film& film, int x, int y, std::vector<float>& out) {
   const PixelSums sums = film.total(x, y);
@@ -48,9 +65,13 @@ void append_pixel(const Film& film, int x, int y, std::vector<float>& out) {
     out.insert(out.end(), layer.begin(), layer.end());
   for (double e : film.standard_error(x, y)) out.push_back(static_cast<float>(e));
   if (!film.settings().features) return;
-  for (const Rgb& layer : {to_floats(sums.mean(sums.albedo)), to_floats(sums.mean(sums.normal))})
+  const Transform& space = film.settings().feature_space;
+  for (const Rgb& layer : {to_floats(sums.mean(sums.albedo)), normal_layer(sums, space)})
     out.insert(out.end(), layer.begin(), layer.end());
   for (double v : {sums.depth, sums.coverage}) out.push_back(static_cast<float>(sums.count > 0 ? v / sums.count : 0));
+  if (!film.settings().positions) return;
+  const Rgb position = position_layer(sums, space);
+  out.insert(out.end(), position.begin(), position.end());
 }
 
 // The value that a model uses for a parameter: given, or its default.
@@ -90,8 +111,9 @@ const char* stopped_by_name(StoppedBy reason) {
 }
 
 // Whether or not the error stopped it: an image that went on because its error looked large was selected as well.
-std::string bias_text(const std::string& of_integrator, const RenderResult& result) {
+std::string bias_text(const std::string& of_integrator, const Sensor& sensor, const RenderResult& result) {
   std::string text = of_integrator;
+  if (const std::string limit = sensor.bias(); !limit.empty()) text += (text.empty() ? "" : "; ") + limit;
   if (result.error_tests > 0)
     text += fmt::format("{}adaptive stopping (the error was tested {} time{})", text.empty() ? "" : "; ",
                         result.error_tests, result.error_tests == 1 ? "" : "s");
@@ -116,7 +138,7 @@ LayeredImage empty_image(const FilmSettings& settings, std::vector<std::string> 
 
 LayeredImage make_layers(const Film& film) {
   const FilmSettings& settings = film.settings();
-  LayeredImage image = empty_image(settings, channel_names(settings.features));
+  LayeredImage image = empty_image(settings, channel_names(settings));
   for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
     for (int x = settings.crop.x0; x < settings.crop.x1; ++x) append_pixel(film, x, y, image.pixels);
   return image;
@@ -178,6 +200,8 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("spp_unequal", std::string(result.unequal ? "true" : "false"));
   if (settings.seconds < HUGE_VAL) add("seconds_limit", settings.seconds);
   if (settings.error > 0) add("error_goal", settings.error);
+  add("imaging_ratio", settings.sensor.imaging_ratio);
+  add("white_balance", settings.sensor.white_balance);
   add("size", fmt::format("{}x{}", settings.width, settings.height));
   add("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
   add("rays.camera", std::to_string(result.rays.camera));
@@ -188,7 +212,7 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("stderr",
       std::string(settings.replicates >= kReplicatesForSpread ? "spread of the replicates"
                                                               : "second moments (conservative for sobol samples)"));
-  add("biased", bias_text(bias, result));
+  add("biased", bias_text(bias, settings.sensor, result));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));
   add("interrupted", std::string(result.stopped_by == StoppedBy::kInterrupt ? "true" : "false"));
   return data;

@@ -16,8 +16,8 @@ namespace etd {
 using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 // The film as float layers: R, G, B; direct.*, indirect.*, emission.* (radiance); with features albedo.R..B,
-// normal.X..Z, depth.Z (metres), coverage.A; stderr.R, .G, .B, .Y. The picture is (emission + direct) + indirect of the
-// float layers, so that this sum holds bit for bit in the file.
+// normal.X..Z, depth.Z (metres), coverage.A, and of a gbuffer position.X..Z; stderr.R, .G, .B, .Y. The picture is
+// (emission + direct) + indirect of the float layers, so that this sum holds bit for bit in the file.
 LayeredImage make_layers(const Film& film);
 
 // Adds layers replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is the picture.

@@ -27,7 +27,14 @@ void check_film_memory(const RenderSettings& settings, Diagnostics& diagnostics)
 }  // namespace
 
 FilmSettings film_settings(const RenderSettings& s) {
-  return {.width = s.width, .height = s.height, .crop = s.crop, .replicates = s.replicates, .features = s.features};
+  return {.width = s.width,
+          .height = s.height,
+          .crop = s.crop,
+          .replicates = s.replicates,
+          .features = s.features,
+          .positions = s.positions,
+          .feature_space = s.feature_space,
+          .sensor = s.sensor};
 }
 
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
@@ -57,7 +64,9 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
 
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
   const RenderSettings& settings = prepared.settings;
-  FinishedRender finished{Film(film_settings(settings)), {}};
+  FilmSettings film = film_settings(settings);
+  film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
+  FinishedRender finished{Film(film), {}};
   const DriverSettings driver{
       .spp = settings.spp, .threads = settings.threads, .seconds = settings.seconds, .error = settings.error};
   finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);
@@ -67,6 +76,7 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
 LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
   LayeredImage image = make_layers(finished.film);
   if (replicate_layers) add_replicate_layers(finished.film, image);
+  image.half = prepared.settings.half;
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, prepared.integrator->bias(), finished.result);
   const IntegratorTraits traits = prepared.integrator->traits();
   const bool independent = traits.memoryless && !traits.splats;

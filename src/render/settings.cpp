@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "film/rgb_film.h"
+#include "film/film_model.h"
 #include "render/driver.h"
 #include "render/overrides.h"
 #include "render/registry.h"
@@ -36,12 +36,27 @@ RenderOverrides checked(RenderOverrides o, Diagnostics& diagnostics) {
   return o;
 }
 
-void read_film(const ParamReader& reader, const RenderOverrides& overrides, RenderSettings& settings) {
-  const RgbFilm film = read_rgb_film(reader, overrides.size);
+// How long the camera's shutter is open. One that opens for an instant is to freeze the picture, not to darken it.
+double shutter_seconds(const ModelUse& camera) {
+  const auto number = [&](std::string_view name, double otherwise) {
+    const Param* p = camera.find(name);
+    return p && p->numbers.size() == 1 ? p->numbers[0] : otherwise;
+  };
+  const double seconds = number("shutterclose", 1) - number("shutteropen", 0);
+  return seconds > 0 ? seconds : 1;
+}
+
+void read_film(const ParamReader& reader, const SceneDescription& description, const RenderOverrides& overrides,
+               RenderSettings& settings) {
+  const FilmModel film = read_film_model(reader, overrides.size, shutter_seconds(description.camera));
   settings.width = film.width;
   settings.height = film.height;
   settings.crop = film.crop;
   settings.filename = film.filename;
+  settings.half = film.half;
+  settings.sensor = film.sensor;
+  settings.positions = film.positions;
+  if (film.in_camera_space) settings.feature_space = description.camera_to_world.inverse();
   if (!overrides.crop) return;
   const PixelBounds& c = *overrides.crop;
   if (c.empty() || c.x0 < 0 || c.y0 < 0 || c.x1 > film.width || c.y1 > film.height)
@@ -105,7 +120,7 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
   const ModelDecl* integrator_decl = require_model(Family::kIntegrator, settings.integrator, diagnostics);
   if (film_decl) {
     check_params(*film_decl, film, diagnostics);
-    read_film(ParamReader(*film_decl, film, diagnostics), overrides, settings);
+    read_film(ParamReader(*film_decl, film, diagnostics), description, overrides, settings);
   }
   if (sampler_decl) {
     check_params(*sampler_decl, sampler, diagnostics);

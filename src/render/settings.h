@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/bounds.h"
+#include "film/sensor.h"
 #include "params/diagnostics.h"
 #include "samplers/sampler.h"
 #include "scene/description.h"
@@ -29,6 +30,10 @@ struct RenderSettings {
   int threads = 0;  // 0: all cores
   int tile_size = 16;
   std::string filename;  // that the scene's film asks for
+  bool half = false;     // EXR files of 16-bit floats
+  Sensor sensor;
+  bool positions = false;   // a layer of them
+  Transform feature_space;  // from the world to the space of the layers of normals and positions
 };
 
 // What the caller overrides; absent means as the scene says.

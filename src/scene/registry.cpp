@@ -1,7 +1,7 @@
 #include "scene/registry.h"
 
 #include "cameras/camera.h"
-#include "film/rgb_film.h"
+#include "film/film_model.h"
 #include "filters/filter.h"
 #include "lights/light.h"
 #include "materials/material.h"

@@ -22,18 +22,6 @@ std::span<const UnsupportedModel> unsupported_models() {
 
       {Family::kCamera, "realistic", "perspective", "a perspective camera of the default field of view"},
 
-      {Family::kFilter, "mitchell", "gaussian", "the default gaussian filter"},
-      {Family::kFilter, "sinc", "gaussian", "the default gaussian filter"},
-
-      {Family::kFilm,
-       "gbuffer",
-       "rgb",
-       "an rgb film",
-       {{"filename", "filename"},
-        {"xresolution", "xresolution"},
-        {"yresolution", "yresolution"},
-        {"cropwindow", "cropwindow"},
-        {"pixelbounds", "pixelbounds"}}},
       {Family::kFilm,
        "spectral",
        "rgb",
@@ -42,7 +30,12 @@ std::span<const UnsupportedModel> unsupported_models() {
         {"xresolution", "xresolution"},
         {"yresolution", "yresolution"},
         {"cropwindow", "cropwindow"},
-        {"pixelbounds", "pixelbounds"}}},
+        {"pixelbounds", "pixelbounds"},
+        {"savefp16", "savefp16"},
+        {"iso", "iso"},
+        {"exposuretime", "exposuretime"},
+        {"whitebalance", "whitebalance"},
+        {"maxcomponentvalue", "maxcomponentvalue"}}},
   };
   return table;
 }
@@ -67,12 +60,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kCamera, "", "shutterclose", "1", "a shutter that closes at 1"},
 
       {Family::kFilm, "", "diagonal", "*", "only realistic cameras read it"},
-      {Family::kFilm, "", "savefp16", "*", "images are written with 32-bit floats"},
-      {Family::kFilm, "", "sensor", "cie1931", "the CIE 1931 observer"},
-      {Family::kFilm, "", "iso", "100", "ISO 100"},
-      {Family::kFilm, "", "exposuretime", "1", "an exposure of 1 s"},
-      {Family::kFilm, "", "whitebalance", "0", "no white balance"},
-      {Family::kFilm, "", "maxcomponentvalue", "inf", "no clamping of bright samples"},
   };
   return table;
 }
