@@ -30,7 +30,7 @@ struct Scene {
 const Scene kScenes[] = {{"conductor_box", 1024, 512, 256}, {"textured_room", 1024, 256, 256},
                          {"sky_instances", 512, 512, 128},  {"glass_caustic", 1024, 512, 512},
                          {"lamps", 2048, 1024, 1024},       {"window_room", 2048, 384, 384},
-                         {"moving_lamps", 1024, 512, 512}};
+                         {"moving_lamps", 1024, 1024, 1024}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
