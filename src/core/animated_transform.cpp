@@ -170,7 +170,7 @@ AnimatedTransform::AnimatedTransform(const TransformPath& path, Vec3d centre, do
       Quaternion& q = parts.back().rotation;
       if (k > 0 && dot(parts[k - 1].rotation, q) < 0) q = sum(q, -1, {}, 0);
     }
-    if (follows(parts, path, size)) break;
+    if (follows(parts, path, size + length(centre))) break;
   }
   // Without rotation nothing turns around a pivot, and the centre itself can be translated: that loses fewer digits.
   const bool turns = std::any_of(parts.begin(), parts.end(), [&](const TransformParts& p) {
