@@ -108,6 +108,7 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   TextureTable table;
   TextureBuilder builder(table, folder.path());
   builder.add("bright", false, use_of("imagemap", {text("filename", "bright.pfm")}), Transform(), diagnostics);
+  builder.load_images({}, diagnostics);
   const auto material = make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, diagnostics);
   ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   const Spectrum albedo = material->closure({}, table).albedo(kUp);

@@ -219,7 +219,6 @@ const Unseen kUnseen[] = {
     {Family::kIntegrator, "path", "mode", "never changes the mean; every scene is rendered in all that converge"},
     {Family::kIntegrator, "path", "roulettedepth", "never changes the mean; the agreement tests vary it"},
     {Family::kMaterial, "", "nsamples", "the noise"},
-    {Family::kTexture, "imagemap", "filter", "its filters read the finest level until mip levels come"},
     {Family::kFilm, "", "filename", "where the picture goes"},
 };
 

@@ -34,7 +34,7 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   stats.paths = 7, stats.peak_bytes = peak_memory_bytes(), stats.spp = 64;
   EXPECT_GT(stats.peak_bytes, 1u << 20);
   const auto json = nlohmann::json::parse(stats_json(stats));
-  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(json.size(), 7u);
   EXPECT_EQ(json["seconds"]["load"], 0.5);
   EXPECT_EQ(json["seconds"]["build"], 1.5);
   EXPECT_EQ(json["seconds"]["render"], 2.5);

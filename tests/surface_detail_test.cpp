@@ -26,7 +26,7 @@ int32_t add_ramp(TextureTable& table, bool along_u) {
   for (int i = 0; i < 64; ++i) values.push_back((static_cast<float>(i) + 0.5f) / 64.0f);
   ImageMapTexture t;
   t.image = static_cast<int32_t>(table.images.size());
-  table.images.push_back(along_u ? Image(64, 1, 1, values) : Image(1, 64, 1, values));
+  table.images.emplace_back(std::make_shared<const Image>(along_u ? Image(64, 1, 1, values) : Image(1, 64, 1, values)));
   table.textures.push_back(Texture(t));
   return static_cast<int32_t>(table.textures.size()) - 1;
 }
@@ -65,7 +65,7 @@ TEST(SurfaceDetail, ConstantHeightChangesNothing) {
 
 TEST(SurfaceDetail, NormalMapsAreInTheFrameOfU) {
   TextureTable table;
-  table.images.push_back(Image(1, 1, 3, std::vector<float>{0.8f, 0.5f, 0.9f}));
+  table.images.emplace_back(std::make_shared<const Image>(1, 1, 3, std::vector<float>{0.8f, 0.5f, 0.9f}));
   ImageMapTexture t;
   t.image = 0;
   table.textures.push_back(Texture(t));

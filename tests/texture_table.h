@@ -15,6 +15,7 @@ class Textures {
     for (const ModelDecl* decl : texture_models())
       if (decl->name == use.model) check_params(*decl, use, diagnostics);
     builder_.add(name, is_float, use, to_world, diagnostics);
+    builder_.load_images(memory, diagnostics);
     return {{}, static_cast<int32_t>(table.textures.size()) - 1};
   }
   void recentre(Vec3d origin) { builder_.recentre(origin); }
@@ -22,6 +23,7 @@ class Textures {
   Spectrum at(const SpectrumSource& source, Point3 p) const { return table.eval(source, {{}, p}); }
 
   TempFolder folder;
+  TextureMemory memory;
   Diagnostics diagnostics;
   TextureTable table;
 

@@ -8,6 +8,7 @@
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
 #include "io/gzip.h"
+#include "render/byte_count.h"
 
 namespace etd::cli {
 namespace {
@@ -93,6 +94,22 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->take_all();
+  command
+      .add_option_function<std::string>(
+          "--texture-memory",
+          [&o](const std::string& text) {
+            o.texture_memory = parse_byte_count(text);
+            if (!o.texture_memory)
+              throw CLI::ValidationError("--texture-memory", "\"" + text + "\" is no size, as in 2G or 500M");
+          },
+          "memory for images of textures (half of the machine's); when they need more, they are read in tiles from a "
+          "folder")
+      ->type_name("SIZE");
+  command
+      .add_option_function<std::string>(
+          "--texture-cache", [&o](const std::string& text) { o.texture_cache = text; },
+          "that folder (~/.cache/etendue/textures)")
+      ->type_name("DIR");
   command.add_flag_function(
       "--no-features", [&o](int64_t) { o.features = false; }, "leave out albedo, normal, depth and coverage");
 }

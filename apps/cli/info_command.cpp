@@ -53,6 +53,9 @@ void print_info(const PreparedRender& prepared) {
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
   const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
   const size_t film = Film::bytes_for(film_settings(s));
+  if (scene.textures.cache)
+    row("", fmt::format("images of textures in tiles of {}, at most {} in memory", s.textures.cache_folder.string(),
+                        bytes_text(scene.textures.cache_limit)));
   for (const auto& [name, bytes] :
        {std::pair("geometry", geometry), std::pair("accelerator", accelerator), std::pair("textures", textures),
         std::pair("lights", lights), std::pair("film", film)})

@@ -11,6 +11,7 @@
 #include "render/duration.h"
 #include "render/interrupt.h"
 #include "render/session.h"
+#include "scene/scene.h"
 #include "watching.h"
 
 namespace etd::cli {
@@ -128,6 +129,12 @@ int render_scene(const Arguments& args) {
   const bool written = write_all(args, outputs, finished_image(*prepared, finished, args.replicate_layers), stats);
   print_summary(*prepared, finished.result);
   watchers.end(finished.film);
+  const TextureCache* cache = prepared->scene->textures.cache.get();
+  if (cache && !cache->read_error().empty()) {
+    fmt::print(stderr, "etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
+               cache->read_error());
+    return kInternalError;
+  }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
   return written ? kOk : kInternalError;
 }

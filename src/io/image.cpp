@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <new>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -70,7 +71,9 @@ void gather(const std::vector<T>& rows, int file_channels, const std::vector<int
 template <class T>
 std::string read_texels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::vector<int>& of_file,
                         std::vector<T>& texels) {
-  const auto type = OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value);
+  // What OpenImageIO calls half is here its bits.
+  const OIIO::TypeDesc type =
+      std::is_same_v<T, uint16_t> ? OIIO::TypeDesc::HALF : OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value);
   const int band = spec.tile_height > 0 ? spec.tile_height : 256;
   texels.reserve(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) * of_file.size());
   std::vector<T> rows;
@@ -122,7 +125,14 @@ ImageResult read_open_image(OIIO::ImageInput& in, ImageEncoding encoding) {
     if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
       return cannot_read(error + in.geterror());
     }
-    return {Image(spec.width, spec.height, channels, std::move(texels), encoding), {}};
+    return {Image(spec.width, spec.height, channels, texels, encoding), {}};
+  }
+  if (spec.format == OIIO::TypeDesc::HALF && spec.channelformats.empty()) {
+    std::vector<uint16_t> texels;
+    if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
+      return cannot_read(error + in.geterror());
+    }
+    return {Image(spec.width, spec.height, channels, texels), {}};
   }
   std::vector<float> texels;
   if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
@@ -140,7 +150,7 @@ ImageResult read_open_image(OIIO::ImageInput& in, ImageEncoding encoding) {
     if (orientation == 4) flip_rows(texels, spec.height);
     if (orientation != 1 && orientation != 4) return fail("it is a Radiance file with turned or mirrored axes");
   }
-  return {Image(spec.width, spec.height, channels, std::move(texels)), {}};
+  return {Image(spec.width, spec.height, channels, texels), {}};
 }
 
 }  // namespace
@@ -171,40 +181,126 @@ std::optional<ImageEncoding> parse_image_encoding(std::string_view text) {
   return ImageEncoding{ImageEncoding::Kind::kGamma, gamma};
 }
 
-Image::Image(int width, int height, int channels, std::vector<float> linear)
-    : width_(width), height_(height), channels_(channels), floats_(std::move(linear)) {
-  assert(floats_.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
+TexelFormat::TexelFormat(Kind kind, ImageEncoding encoding) : kind_(kind) {
+  for (size_t i = 0; i < decoded_.size(); ++i) decoded_[i] = encoding.to_linear(static_cast<float>(i) / 255.0f);
 }
 
-Image::Image(int width, int height, int channels, std::vector<uint8_t> encoded, ImageEncoding encoding)
-    : width_(width), height_(height), channels_(channels), bytes_(std::move(encoded)) {
-  assert(bytes_.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
-  for (int i = 0; i < 256; ++i) {
-    decoded_[static_cast<size_t>(i)] = encoding.to_linear(static_cast<float>(i) / 255.0f);
+Image::Image(int width, int height, int channels, TexelFormat format, const std::byte* rows)
+    : width_(width),
+      height_(height),
+      channels_(channels),
+      blocks_across_(static_cast<size_t>((width + kBlock - 1) / kBlock)),
+      format_(format),
+      texels_(blocks_across_ * static_cast<size_t>((height + kBlock - 1) / kBlock) * (kBlock * kBlock) *
+              static_cast<size_t>(channels) * format.bytes()) {
+  const size_t texel = static_cast<size_t>(channels) * format.bytes();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; x += kBlock) {
+      const auto count = static_cast<size_t>(std::min(kBlock, width - x));
+      std::memcpy(&texels_[index(x, y) * texel], rows, count * texel);
+      rows += count * texel;
+    }
+}
+
+Image::Image(int width, int height, int channels, const std::vector<float>& linear)
+    : Image(width, height, channels, TexelFormat(), reinterpret_cast<const std::byte*>(linear.data())) {
+  assert(linear.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
+}
+
+Image::Image(int width, int height, int channels, const std::vector<uint8_t>& encoded, ImageEncoding encoding)
+    : Image(width, height, channels, TexelFormat(TexelFormat::Kind::kByte, encoding),
+            reinterpret_cast<const std::byte*>(encoded.data())) {
+  assert(encoded.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
+}
+
+Image::Image(int width, int height, int channels, const std::vector<uint16_t>& halves)
+    : Image(width, height, channels, TexelFormat(TexelFormat::Kind::kHalf),
+            reinterpret_cast<const std::byte*>(halves.data())) {
+  assert(halves.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
+}
+
+void Image::copy_row(int x, int y, int width, std::byte* to) const {
+  const size_t texel = static_cast<size_t>(channels_) * format_.bytes();
+  for (const int end = x + width; x < end;) {
+    const int count = std::min(kBlock - x % kBlock, end - x);
+    std::memcpy(to, &texels_[index(x, y) * texel], static_cast<size_t>(count) * texel);
+    to += static_cast<size_t>(count) * texel;
+    x += count;
   }
 }
+
+Image without_opaque_alpha(Image image) {
+  if (image.channels_ != 4) return image;
+  for (int y = 0; y < image.height_; ++y)
+    for (int x = 0; x < image.width_; ++x)
+      if (image.texel(x, y, 3) != 1.0f) return image;
+  const size_t number = image.format_.bytes();
+  std::vector<std::byte> opaque(image.texels_.size() / 4 * 3);
+  for (size_t i = 0; i < image.texels_.size() / (4 * number); ++i)
+    std::memcpy(&opaque[i * 3 * number], &image.texels_[i * 4 * number], 3 * number);
+  image.texels_ = std::move(opaque);
+  image.channels_ = 3;
+  return image;
+}
+
+namespace {
+
+// The file opened as read_image() and image_bytes() want it; null and a reason if it is no image.
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, std::string& error) {
+  prepare_oiio();
+  // Otherwise colours would be multiplied by alpha in the encoded bytes, which loses what textures need.
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;
+  std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string(), &config);
+  if (in == nullptr) error = one_line(OIIO::geterror(), "not an image of a known format");
+  return in;
+}
+
+bool is_pfm(const std::filesystem::path& path) { return OIIO::Strutil::iequals(path.extension().string(), ".pfm"); }
+
+}  // namespace
 
 ImageResult read_image(const std::filesystem::path& path, ImageEncoding encoding) {
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(path, failed);
   if (!std::filesystem::exists(status)) return fail("the file does not exist");
   if (!std::filesystem::is_regular_file(status)) return fail("not a regular file");
-  if (OIIO::Strutil::iequals(path.extension().string(), ".pfm")) {
+  if (is_pfm(path)) {
     const FileBytes file = read_file(path);
     return file.error.empty() ? decode_pfm(file.bytes) : fail(file.error);
   }
-  prepare_oiio();
   try {
-    // Otherwise colours would be multiplied by alpha in the encoded bytes, which loses what textures need.
-    OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;
-    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string(), &config);
-    if (in == nullptr) return fail(one_line(OIIO::geterror(), "not an image of a known format"));
-    return read_open_image(*in, encoding);
+    std::string error;
+    const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
+    return in ? read_open_image(*in, encoding) : fail(error);
   } catch (const std::bad_alloc&) {
     return fail("there is not enough memory for it");
   } catch (const std::exception& error) {
     return fail(one_line(error.what(), "it could not be read"));
+  }
+}
+
+size_t image_bytes(const std::filesystem::path& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return 0;
+  if (is_pfm(path)) {
+    const auto size = std::filesystem::file_size(path, failed);
+    return failed ? 0 : static_cast<size_t>(size);
+  }
+  try {
+    std::string error;
+    const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
+    if (in == nullptr) return 0;
+    const OIIO::ImageSpec spec = in->spec();
+    const ChannelChoice choice = choose_channels(spec);
+    const bool same = spec.channelformats.empty();
+    const size_t number = same && spec.format == OIIO::TypeDesc::UINT8  ? 1
+                          : same && spec.format == OIIO::TypeDesc::HALF ? 2
+                                                                        : 4;
+    return static_cast<size_t>(std::max(spec.width, 0)) * static_cast<size_t>(std::max(spec.height, 0)) *
+           choice.of_file.size() * number;
+  } catch (const std::exception&) {
+    return 0;
   }
 }
 

@@ -73,7 +73,7 @@ ImageResult decode_pfm(std::string_view bytes) {
       texels.push_back(std::abs(scale) * float_at(left.data() + i * sizeof(float), scale < 0));
     }
   }
-  return {Image(width, height, channels, std::move(texels)), {}};
+  return {Image(width, height, channels, texels), {}};
 }
 
 std::string encode_pfm(int width, int height, std::span<const float> rgb) {

@@ -43,7 +43,7 @@ std::optional<PortalInfiniteLight> PortalInfiniteLight::create(const ParamReader
     map = read_environment(p, context.folder);
   } else {
     const Spectrum radiance = emission_value(p, "L");
-    map.emplace(Image(1, 1, 3, {radiance[0], radiance[1], radiance[2]}));
+    map.emplace(Image(1, 1, 3, std::vector<float>{radiance[0], radiance[1], radiance[2]}));
   }
   if (!portal || !axes || !map) return {};
   const float scale = emission_scale(p, "illuminance", p.number("illuminance") > 0 ? map->irradiance_up() : Spectrum());

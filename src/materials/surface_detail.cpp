@@ -25,8 +25,13 @@ SurfaceDetail SurfaceDetail::create(const ParamReader& p, TextureBuilder& b) {
 
 namespace {
 
-// Steps over uv for differences; small beside texels, large beside the rounding of uv.
-constexpr float kStep = 5e-4f;
+// Steps over uv for differences: half the footprint of a pixel, which is as fine as can be seen; without one, small
+// beside texels and large beside the rounding of uv.
+float step_of(float change_x, float change_y) {
+  constexpr float kUsual = 5e-4f, kSmallest = 1e-5f;
+  const float footprint = std::abs(change_x) + std::abs(change_y);
+  return footprint > 0.0f ? std::max(0.5f * footprint, kSmallest) : kUsual;
+}
 
 // The normal of the surface moved by d along n is along n - grad d, where grad is taken along the surface (Blinn 1978;
 // d times the surface's curvature is left out).
@@ -35,12 +40,13 @@ Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord
   const float area = dot(n, cross(point.dpdu, point.dpdv));
   if (area == 0.0f) return n;
   TexCoord beside = at, above = at;
-  beside.uv.x += kStep;
-  beside.p = at.p + point.dpdu * kStep;
-  above.uv.y += kStep;
-  above.p = at.p + point.dpdv * kStep;
+  const float du = step_of(at.duv_dx.x, at.duv_dy.x), dv = step_of(at.duv_dx.y, at.duv_dy.y);
+  beside.uv.x += du;
+  beside.p = at.p + point.dpdu * du;
+  above.uv.y += dv;
+  above.p = at.p + point.dpdv * dv;
   const float d = textures.eval(height, at);
-  const float d_u = (textures.eval(height, beside) - d) / kStep, d_v = (textures.eval(height, above) - d) / kStep;
+  const float d_u = (textures.eval(height, beside) - d) / du, d_v = (textures.eval(height, above) - d) / dv;
   const Vec3 gradient = (cross(point.dpdv, n) * d_u + cross(n, point.dpdu) * d_v) * (1.0f / area);
   return is_finite(gradient) ? normalize(n - gradient) : n;
 }

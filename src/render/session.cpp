@@ -40,8 +40,12 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   check_film_memory(settings, diagnostics);
 
   ThreadLimit threads(settings.threads);  // building the accelerator is parallel too
-  prepared.scene = threads.run(
-      [&] { return compile(description, {.width = settings.width, .height = settings.height}, diagnostics); });
+  prepared.scene = threads.run([&] {
+    return compile(
+        description,
+        {.width = settings.width, .height = settings.height, .spp = settings.spp, .textures = settings.textures},
+        diagnostics);
+  });
   if (diagnostics.has_errors() || !prepared.scene) return {};
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
@@ -81,6 +85,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.rays = finished.result.rays;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
+  stats.texture_bytes = prepared.scene->textures.image_bytes();
   count_pixels(finished.film, stats);
   return stats;
 }

@@ -57,6 +57,8 @@ void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, R
   settings.sampler = sampler_kind(reader.decl().name);
   settings.seed = overrides.seed.value_or(static_cast<uint64_t>(reader.integer("seed")));
   settings.seconds = overrides.seconds.value_or(settings.seconds);
+  settings.textures.limit = overrides.texture_memory.value_or(settings.textures.limit);
+  settings.textures.cache_folder = overrides.texture_cache.value_or(settings.textures.cache_folder);
   settings.error = overrides.error.value_or(settings.error);
   const uint32_t r = settings.replicates;
   const bool samples_set = std::any_of(overrides.set.begin(), overrides.set.end(),

@@ -11,6 +11,7 @@
 #include "params/diagnostics.h"
 #include "samplers/sampler.h"
 #include "scene/description.h"
+#include "textures/image_store.h"
 
 namespace etd {
 
@@ -28,6 +29,7 @@ struct RenderSettings {
   bool features = true;
   int threads = 0;  // 0: all cores
   int tile_size = 16;
+  TextureMemory textures;
   std::string filename;  // that the scene's film asks for
 };
 
@@ -41,6 +43,8 @@ struct RenderOverrides {
   std::optional<uint64_t> seed;
   std::optional<int> threads, tile_size;
   std::optional<bool> features;
+  std::optional<size_t> texture_memory;
+  std::optional<std::filesystem::path> texture_cache;
   std::optional<std::string> sampler;
   // "integrator.mode" = "naive" and the like: a declared parameter of the film, sampler or integrator model.
   std::vector<std::pair<std::string, std::string>> set;

@@ -35,6 +35,7 @@ std::string stats_json(const RenderStats& s) {
   json["rays_per_pixel"] = {{"mean", s.rays_per_pixel_mean}, {"max", s.rays_per_pixel_max}};
   json["paths"] = s.paths;
   json["peak_bytes"] = s.peak_bytes;
+  json["texture_bytes"] = s.texture_bytes;
   json["spp"] = s.spp;
   return json.dump(2) + "\n";
 }

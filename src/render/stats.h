@@ -13,6 +13,7 @@ struct RenderStats {
   double rays_per_pixel_mean = 0, rays_per_pixel_max = 0;  // over all samples of a pixel
   uint64_t paths = 0;                                      // samples taken, over all pixels
   uint64_t peak_bytes = 0;                                 // of the process
+  uint64_t texture_bytes = 0;                              // of images of textures, at the end
   uint32_t spp = 0;                                        // that every pixel has
 };
 
@@ -21,7 +22,7 @@ void count_pixels(const Film& film, RenderStats& stats);
 // The largest memory the process has held so far, in bytes.
 uint64_t peak_memory_bytes();
 // {"seconds": {"load", "build", "render"}, "rays": {"camera", "indirect", "shadow"}, "rays_per_pixel": {"mean", "max"},
-// "paths", "peak_bytes", "spp"}, ending with a newline.
+// "paths", "peak_bytes", "texture_bytes", "spp"}, ending with a newline.
 std::string stats_json(const RenderStats& stats);
 
 }  // namespace etd

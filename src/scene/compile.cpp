@@ -105,6 +105,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   compile_geometry(description, material_of, textures, *scene, diagnostics);
   textures.recentre(scene->origin);
+  textures.load_images(options.textures, diagnostics);
 
   compile_lights(description, *scene, diagnostics);
 
@@ -118,6 +119,9 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
                   {to_recentred * description.camera_to_world, options.width, options.height, description.folder},
                   scene->camera_data, diagnostics);
   scene->filter = make_filter(description.filter, diagnostics);
+  if (description.filter_textures)
+    scene->footprint =
+        PixelFootprint(scene->camera, options.width, options.height, PixelFootprint::scale_for(options.spp));
   if (diagnostics.has_errors()) return nullptr;
 
   scene->light_sampler = PowerLightSampler(scene->lights);

@@ -56,7 +56,8 @@ struct SceneDescription {
 
   // The readers fill these with their format's defaults when the file does not say.
   ModelUse camera, film, filter, sampler, integrator;
-  Transform camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
+  bool filter_textures = true;  // over the footprint of a pixel, where they can be; otherwise at points
+  Transform camera_to_world;    // a mirroring one is allowed: handedness lives in the camera
 
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;

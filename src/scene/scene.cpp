@@ -45,8 +45,29 @@ SurfaceHit Scene::surface(const Hit& hit) const {
   return s;
 }
 
+TexCoord Scene::tex_coord(const SurfacePoint& s) const {
+  TexCoord at = point_coord(s);
+  if (textures.textures.empty()) return at;
+  const PixelFootprint::Step step = footprint.at(s.p, s.ng);
+  at.dp_dx = step.dx;
+  at.dp_dy = step.dy;
+  // The change of uv whose image under (dpdu, dpdv) is nearest to that of p: normal equations.
+  const double uu = double(dot(s.dpdu, s.dpdu)), uv = double(dot(s.dpdu, s.dpdv)), vv = double(dot(s.dpdv, s.dpdv));
+  const double inverse = 1.0 / (uu * vv - uv * uv);
+  const auto change = [&](Vec3 d) {
+    const double u = double(dot(s.dpdu, d)), v = double(dot(s.dpdv, d));
+    const double du = (vv * u - uv * v) * inverse, dv = (uu * v - uv * u) * inverse;
+    constexpr double kMost = 1e8;
+    if (!std::isfinite(du) || !std::isfinite(dv)) return Vec2{};
+    return Vec2{static_cast<float>(std::clamp(du, -kMost, kMost)), static_cast<float>(std::clamp(dv, -kMost, kMost))};
+  };
+  at.duv_dx = change(step.dx);
+  at.duv_dy = change(step.dy);
+  return at;
+}
+
 Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
-  const TexCoord at = point_coord(surface.point);
+  const TexCoord at = tex_coord(surface.point);
   const Material& material = surface.material->resolve(at, textures, materials, rng);
   return {material.closure(at, textures), material.frame(surface.point, at, textures)};
 }

@@ -8,7 +8,7 @@
 
 #include "accel/accelerator.h"
 #include "accel/surface.h"
-#include "cameras/camera.h"
+#include "cameras/footprint.h"
 #include "core/bounds.h"
 #include "filters/filter.h"
 #include "light_sampling/power_light_sampler.h"
@@ -84,6 +84,7 @@ class Scene {
   LightData light_data;
   PowerLightSampler light_sampler;
   Camera camera;
+  PixelFootprint footprint;
   CameraData camera_data;
   Filter filter;
   std::unique_ptr<Accelerator> accelerator;
@@ -93,6 +94,8 @@ class Scene {
  private:
   // Where textures are looked up at a point, without a footprint.
   static TexCoord point_coord(const SurfacePoint& s) { return {s.uv, s.p, s.ng}; }
+  // The same with the footprint of a pixel.
+  TexCoord tex_coord(const SurfacePoint& s) const;
   const SurfaceBinding& binding_of(const Hit& hit) const {
     if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
     return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];

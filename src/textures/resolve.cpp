@@ -121,27 +121,4 @@ int32_t TextureBuilder::find(const Param& reference, bool is_float, Diagnostics&
   return -1;
 }
 
-int32_t TextureBuilder::image(const Param& filename, std::string_view encoding, Diagnostics& diagnostics) {
-  const std::string path = (folder_ / filename.strings[0]).string();
-  const auto key = std::make_pair(path, std::string(encoding));
-  if (const auto it = images_.find(key); it != images_.end()) return it->second;
-  const auto parsed = parse_image_encoding(encoding);
-  if (!parsed) {
-    diagnostics.error(filename.value_loc, fmt::format("unknown image encoding \"{}\"", encoding),
-                      "valid: \"sRGB\", \"linear\", \"gamma 2.2\"");
-    return -1;
-  }
-  ImageResult result = read_image(path, *parsed);
-  int32_t index = -1;
-  if (result.image) {
-    index = static_cast<int32_t>(table_.images.size());
-    table_.images.push_back(std::move(*result.image));
-  } else {
-    diagnostics.error(filename.value_loc,
-                      fmt::format("cannot read image \"{}\": {}", filename.strings[0], result.error));
-  }
-  images_[key] = index;
-  return index;
-}
-
 }  // namespace etd

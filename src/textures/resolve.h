@@ -9,7 +9,7 @@
 
 #include "core/transform.h"
 #include "params/declaration.h"
-#include "textures/texture.h"
+#include "textures/image_store.h"
 
 namespace etd {
 
@@ -25,7 +25,8 @@ Spectrum emission_value(const ParamReader& params, std::string_view name);
 // The textures built so far by name, and the means to build more.
 class TextureBuilder {
  public:
-  TextureBuilder(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
+  TextureBuilder(TextureTable& table, std::filesystem::path folder)
+      : table_(table), images_(table, std::move(folder)) {}
 
   // Builds a checked use, whose children must have been built before. A float texture is made of float textures only.
   void add(const std::string& name, bool is_float, const ModelUse& use, const Transform& to_world,
@@ -43,20 +44,23 @@ class TextureBuilder {
   FloatSource number(const ParamReader& params, std::string_view name) const;
   // A texture of the table that shows an image over uv, bilinear and repeated; -1 and an error when it can't be read.
   int32_t image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
-  // Index of an image of the table, read once per file and encoding; -1 and an error when it can't be read.
-  int32_t image(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
-  const Image& image_at(int32_t index) const { return table_.images[static_cast<size_t>(index)]; }
+  // Index of an image of the table (see ImageStore::add()).
+  int32_t image(const Param& filename, std::string_view encoding, std::optional<ImageWrap> levels,
+                Diagnostics& diagnostics) {
+    return images_.add(filename, encoding, levels, diagnostics);
+  }
+  // Reads the images that were asked for since the last call; none can be looked up before.
+  void load_images(const TextureMemory& memory, Diagnostics& diagnostics) { images_.load(memory, diagnostics); }
 
  private:
   int32_t find(const Param& reference, bool is_float, Diagnostics& diagnostics) const;
 
   TextureTable& table_;
-  std::filesystem::path folder_;
+  ImageStore images_;
   bool is_float_ = false;  // while a float texture is built
   Transform to_world_;
   std::vector<Transform> spaces_;  // to the world, of those of the table
   std::map<std::pair<std::string, bool>, int32_t> names_;
-  std::map<std::pair<std::string, std::string>, int32_t> images_;
 };
 
 std::span<const ModelDecl* const> texture_models();

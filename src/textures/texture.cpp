@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "textures/bilerp.h"
 #include "textures/checkerboard.h"
 #include "textures/constant.h"
@@ -36,8 +38,13 @@ Spectrum Texture::eval(const TexCoord& at, const TextureTable& table) const {
 }
 
 size_t TextureTable::image_bytes() const {
+  if (cache) return cache->bytes_in_use();
   size_t sum = 0;
-  for (const Image& image : images) sum += image.bytes();
+  std::set<const Image*> counted;
+  for (const TextureImage& image : images) {
+    if (image.finest() && counted.insert(image.finest().get()).second) sum += image.finest()->bytes();
+    for (const Image& level : image.coarser()) sum += level.bytes();
+  }
   return sum;
 }
 
@@ -84,7 +91,7 @@ std::span<const ModelDecl* const> texture_models() {
 
 int32_t TextureBuilder::image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics) {
   ImageMapTexture texture;
-  texture.image = image(filename, encoding, diagnostics);
+  texture.image = images_.add(filename, encoding, {}, diagnostics);
   if (texture.image < 0) return -1;
   table_.textures.push_back(Texture(texture));
   return static_cast<int32_t>(table_.textures.size()) - 1;

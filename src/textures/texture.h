@@ -7,8 +7,8 @@
 
 #include "core/affine.h"
 #include "core/tagged.h"
-#include "io/image.h"
 #include "spectrum/spectrum.h"
+#include "textures/texture_image.h"
 
 namespace etd {
 
@@ -53,10 +53,13 @@ class TextureTable {
   float eval(const FloatSource& source, const TexCoord& at) const {
     return source.texture < 0 ? source.value : textures[static_cast<size_t>(source.texture)].eval(at, *this)[0];
   }
+  // The memory that images take now.
   size_t image_bytes() const;
 
   std::vector<Texture> textures;
-  std::vector<Image> images;
+  std::shared_ptr<TextureCache> cache;  // null: all images are in memory
+  size_t cache_limit = 0;               // of its bytes
+  std::vector<TextureImage> images;
   std::vector<Affine> spaces;  // from the recentred world to the space in which a texture was defined
 };
 

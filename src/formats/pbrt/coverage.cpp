@@ -108,14 +108,6 @@ void drop_unsupported_params(Family family, ModelUse& use, Diagnostics& diagnost
   use.params.erase(std::remove_if(use.params.begin(), use.params.end(), dropped), use.params.end());
 }
 
-// imagemap's filters all read the finest level bilinearly for now, which is worth one line.
-void note_filtering(Family family, const ModelUse& use, Diagnostics& diagnostics) {
-  const Param* filter = family == Family::kTexture && use.model == "imagemap" ? use.find("filter") : nullptr;
-  if (filter && filter->strings.size() == 1 && (filter->strings[0] == "trilinear" || filter->strings[0] == "ewa"))
-    diagnostics.note(filter->value_loc,
-                     "image textures are read with the bilinear filter, whatever \"filter\" asks for");
-}
-
 }  // namespace
 
 std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics& diagnostics) {
@@ -130,7 +122,6 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
       return report_unknown(family, use, diagnostics);
     }
   }
-  note_filtering(family, use, diagnostics);
   drop_unsupported_params(family, use, diagnostics);
   drop_old_params(family, use, diagnostics);
   return use;

@@ -37,7 +37,7 @@ struct UnsupportedParam {
 
 // An option of pbrt, and what it means here.
 struct OptionRule {
-  enum class Effect : uint8_t { kSeed, kNone, kNote, kUnsupportedIfTrue };
+  enum class Effect : uint8_t { kSeed, kNoTextureFiltering, kNone, kNote, kUnsupportedIfTrue };
   std::string_view name;
   Effect effect;
   std::string_view text;  // why it has no effect, the note, or the substitute

@@ -57,8 +57,6 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kShape, "plymesh", "displacement", "", "the undisplaced surface"},
       {Family::kShape, "plymesh", "edgelength", "*", "only displacement reads it"},
 
-      {Family::kTexture, "imagemap", "maxanisotropy", "*", "only the EWA filter reads it"},
-
       {Family::kCamera, "spherical", "lensradius", "*", "a spherical camera has no lens"},
       {Family::kCamera, "spherical", "focaldistance", "*", "a spherical camera has no lens"},
       {Family::kCamera, "spherical", "frameaspectratio", "*", "a spherical camera sees all directions"},
@@ -82,7 +80,7 @@ std::span<const OptionRule> known_options() {
   static constexpr std::array<OptionRule, 11> table = {
       {{"seed", Effect::kSeed, "the sampler's seed, unless it has its own"},
        {"rendercoordsys", Effect::kNone, "coordinates are always recentred exactly"},
-       {"disabletexturefiltering", Effect::kNone, "textures are not filtered over footprints"},
+       {"disabletexturefiltering", Effect::kNoTextureFiltering, "textures are looked up at points if it is true"},
        {"disablewavelengthjitter", Effect::kNone, "there are no wavelengths to sample"},
        {"displacementedgescale", Effect::kNone, "there is no displacement"},
        {"wavefront", Effect::kNone, "it chooses an implementation, not an image"},

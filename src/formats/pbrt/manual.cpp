@@ -88,9 +88,10 @@ std::string options_table() {
   std::string out = "\n| option | what it does here |\n|---|---|\n";
   for (const pbrt::OptionRule& rule : pbrt::known_options()) {
     using Effect = pbrt::OptionRule::Effect;
-    const std::string_view prefix = rule.effect == Effect::kSeed   ? "sets "
-                                    : rule.effect == Effect::kNone ? "nothing: "
-                                    : rule.effect == Effect::kNote ? "prints one line: "
+    const std::string_view prefix = rule.effect == Effect::kSeed                 ? "sets "
+                                    : rule.effect == Effect::kNoTextureFiltering ? ""
+                                    : rule.effect == Effect::kNone               ? "nothing: "
+                                    : rule.effect == Effect::kNote               ? "prints one line: "
                                                                    : "unsupported when true; rendered instead: ";
     out += fmt::format("| `{}` | {}{} |\n", rule.name, prefix, rule.text);
   }

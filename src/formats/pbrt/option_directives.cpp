@@ -207,6 +207,11 @@ void option(Parser& p, const Token& d) {
         near.empty() ? fmt::format("valid: {}", fmt::join(names, ", ")) : fmt::format("did you mean \"{}\"?", near));
     return;
   }
+  const auto is_true = [&] {
+    if (value->text != "true" && value->text != "false")
+      p.diagnostics.error(value->loc, fmt::format("option \"{}\" is true or false", name->text));
+    return value->text == "true";
+  };
   switch (rule->effect) {
     case OptionRule::Effect::kNone:
       return;
@@ -216,11 +221,12 @@ void option(Parser& p, const Token& d) {
       p.seed = parse_integer(value->text);
       if (!p.seed) p.diagnostics.error(value->loc, fmt::format("the seed is an integer, not {}", value->text));
       return;
+    case OptionRule::Effect::kNoTextureFiltering:
+      p.scene.filter_textures = !is_true();
+      return;
     case OptionRule::Effect::kUnsupportedIfTrue:
-      if (value->text == "true")
+      if (is_true())
         p.diagnostics.unsupported(name->loc, fmt::format("option \"{}\"", name->text), std::string(rule->text));
-      else if (value->text != "false")
-        p.diagnostics.error(value->loc, fmt::format("option \"{}\" is true or false", name->text));
       return;
   }
 }

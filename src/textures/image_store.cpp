@@ -1,0 +1,139 @@
+#include "textures/image_store.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <set>
+#include <system_error>
+
+#include "core/hash.h"
+#include "textures/pyramid.h"
+
+namespace etd {
+
+namespace fs = std::filesystem;
+
+size_t TextureMemory::half_of_the_machine() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<size_t>(pages) * static_cast<size_t>(page) / 2 : size_t{1} << 30;
+}
+
+fs::path TextureMemory::usual_cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && fs::path(cache).is_absolute())
+    return fs::path(cache) / "etendue" / "textures";
+  if (const char* home = std::getenv("HOME"); home && fs::path(home).is_absolute())
+    return fs::path(home) / ".cache" / "etendue" / "textures";
+  std::error_code failed;
+  return fs::temp_directory_path(failed) / "etendue-textures";
+}
+
+int32_t ImageStore::add(const Param& filename, std::string_view encoding, std::optional<ImageWrap> levels,
+                        Diagnostics& diagnostics) {
+  const auto parsed = parse_image_encoding(encoding);
+  if (!parsed) {
+    diagnostics.error(filename.value_loc, fmt::format("unknown image encoding \"{}\"", encoding),
+                      "valid: \"sRGB\", \"linear\", \"gamma 2.2\"");
+    return -1;
+  }
+  const fs::path path = folder_ / filename.strings[0];
+  for (size_t i = 0; i < requests_.size(); ++i)
+    if (requests_[i].path == path && requests_[i].encoding_text == encoding && requests_[i].levels == levels)
+      return static_cast<int32_t>(i);
+  requests_.push_back({path, std::string(encoding), *parsed, levels, filename.value_loc, filename.strings[0]});
+  table_.images.emplace_back();
+  return static_cast<int32_t>(requests_.size()) - 1;
+}
+
+void ImageStore::load(const TextureMemory& memory, Diagnostics& diagnostics) {
+  size_t needed = 0;
+  std::set<std::pair<fs::path, std::string>> counted;
+  for (const Request& r : requests_) {
+    const size_t finest = image_bytes(r.path);
+    if (counted.emplace(r.path, r.encoding_text).second) needed += finest;
+    if (r.levels) needed += finest * 2 / 3;  // a third of the texels, of up to twice the size
+  }
+  const bool fits = needed <= memory.limit;
+  if (!fits && !table_.cache) {
+    table_.cache = std::make_shared<TextureCache>(memory.limit);
+    table_.cache_limit = memory.limit;
+  }
+  for (; loaded_ < requests_.size(); ++loaded_)
+    table_.images[loaded_] = fits ? in_memory(requests_[loaded_], diagnostics)
+                                  : from_tiles(requests_[loaded_], memory.cache_folder, diagnostics);
+}
+
+std::optional<Image> ImageStore::read(const Request& r, Diagnostics& diagnostics) const {
+  ImageResult result = read_image(r.path, r.encoding);
+  if (result.image) return without_opaque_alpha(std::move(*result.image));
+  diagnostics.error(r.loc, fmt::format("cannot read image \"{}\": {}", r.name, result.error));
+  return {};
+}
+
+TextureImage ImageStore::in_memory(const Request& r, Diagnostics& diagnostics) {
+  const auto [it, is_new] = finest_.try_emplace({r.path.string(), r.encoding_text}, nullptr);
+  if (is_new)
+    if (std::optional<Image> image = read(r, diagnostics))
+      it->second = std::make_shared<const Image>(std::move(*image));
+  if (!it->second) return {};
+  return TextureImage(it->second, r.levels ? coarser_levels(*it->second, *r.levels) : std::vector<Image>());
+}
+
+namespace {
+
+uint64_t hash_text(std::string_view text, uint64_t seed) {
+  uint64_t h = hash_combine(seed, text.size());
+  for (const char c : text) h = hash_combine(h, static_cast<unsigned char>(c));
+  return h;
+}
+
+// Named by all that its content depends on: which file, of what size, changed when, read and filtered how.
+std::string tile_file_name(const fs::path& path, std::string_view encoding, std::optional<ImageWrap> levels) {
+  constexpr int kVersion = 1;  // of what the files hold
+  std::error_code failed;
+  const fs::path canonical = fs::weakly_canonical(path, failed);
+  const auto changed = fs::last_write_time(path, failed).time_since_epoch().count();
+  const std::string identity =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n{}", kVersion, canonical.string(), fs::file_size(path, failed), changed,
+                  encoding, levels ? static_cast<int>(*levels) : -1);
+  return fmt::format("{:.40}-{:016x}{:016x}.tif", path.stem().string(), hash_text(identity, 1), hash_text(identity, 2));
+}
+
+}  // namespace
+
+bool ImageStore::convert(const Request& r, const fs::path& to, Diagnostics& diagnostics) const {
+  const std::optional<Image> finest = read(r, diagnostics);
+  if (!finest) return false;
+  std::optional<Image> coarse;
+  const Image* last = nullptr;
+  const auto next = [&]() -> const Image* {
+    if (!last) return last = &*finest;
+    if (!r.levels || (last->width() == 1 && last->height() == 1)) return nullptr;
+    coarse = coarser_level(*last, *r.levels);
+    return last = &*coarse;
+  };
+  std::error_code failed;
+  fs::create_directories(to.parent_path(), failed);
+  const std::string problem = failed ? failed.message() : write_tiled_levels(to, next);
+  if (problem.empty()) return true;
+  diagnostics.error(r.loc, fmt::format("cannot write to the texture cache {}: {}", to.parent_path().string(), problem),
+                    "the images need more than --texture-memory; --texture-cache names another folder for them");
+  return false;
+}
+
+TextureImage ImageStore::from_tiles(const Request& r, const fs::path& cache_folder, Diagnostics& diagnostics) {
+  std::error_code failed;
+  if (!fs::is_regular_file(r.path, failed)) return read(r, diagnostics), TextureImage();
+  const fs::path tiles = cache_folder / tile_file_name(r.path, r.encoding_text, r.levels);
+  std::string error;
+  const bool was_there = fs::exists(tiles, failed);
+  if (!was_there && !convert(r, tiles, diagnostics)) return {};
+  if (auto image = table_.cache->open(tiles, r.encoding, error)) return TextureImage(std::move(image));
+  // A file that another version left, or that was damaged.
+  if (was_there && !convert(r, tiles, diagnostics)) return {};
+  if (auto image = table_.cache->open(tiles, r.encoding, error)) return TextureImage(std::move(image));
+  diagnostics.error(r.loc, fmt::format("cannot read {} of the texture cache: {}", tiles.string(), error));
+  return {};
+}
+
+}  // namespace etd

@@ -1,0 +1,58 @@
+// The images that a scene's textures ask for: each file is read once, into memory if all of them fit, otherwise by way
+// of files of tiles in a folder that later renders use again.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "params/declaration.h"
+#include "textures/texture.h"
+
+namespace etd {
+
+struct TextureMemory {
+  size_t limit = half_of_the_machine();                       // bytes of texels in memory
+  std::filesystem::path cache_folder = usual_cache_folder();  // of the files of tiles
+
+  static size_t half_of_the_machine();
+  // $XDG_CACHE_HOME/etendue/textures, or ~/.cache/etendue/textures, or a folder among the temporary ones.
+  static std::filesystem::path usual_cache_folder();
+};
+
+class ImageStore {
+ public:
+  ImageStore(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
+
+  // Index of an image of the table, which load() will read; with coarser levels if it says how the image is wrapped for
+  // them. -1 and an error for an unknown encoding.
+  int32_t add(const Param& filename, std::string_view encoding, std::optional<ImageWrap> levels,
+              Diagnostics& diagnostics);
+  // Reads the images that were added since the last call, and reports those that can't be read.
+  void load(const TextureMemory& memory, Diagnostics& diagnostics);
+
+ private:
+  struct Request {
+    std::filesystem::path path;
+    std::string encoding_text;
+    ImageEncoding encoding;
+    std::optional<ImageWrap> levels;
+    SourceLoc loc;
+    std::string name;  // as the scene writes it
+  };
+
+  TextureImage in_memory(const Request& r, Diagnostics& diagnostics);
+  TextureImage from_tiles(const Request& r, const std::filesystem::path& cache_folder, Diagnostics& diagnostics);
+  std::optional<Image> read(const Request& r, Diagnostics& diagnostics) const;
+  // Makes the file of tiles. False and an error when that fails.
+  bool convert(const Request& r, const std::filesystem::path& to, Diagnostics& diagnostics) const;
+
+  TextureTable& table_;
+  std::filesystem::path folder_;
+  std::vector<Request> requests_;  // by index in the table
+  size_t loaded_ = 0;
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> finest_;  // by path and encoding
+};
+
+}  // namespace etd
