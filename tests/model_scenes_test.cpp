@@ -235,6 +235,7 @@ const Unseen kUnseen[] = {
     {Family::kFilm, "gbuffer", "pixelbounds", "the same as of the film \"rgb\""},
     {Family::kFilm, "gbuffer", "iso", "the same as of the film \"rgb\""},
     {Family::kFilm, "gbuffer", "exposuretime", "the same as of the film \"rgb\""},
+    {Family::kFilm, "gbuffer", "imagingratio", "the same as of the film \"rgb\""},
     {Family::kFilm, "gbuffer", "whitebalance", "the same as of the film \"rgb\""},
     {Family::kFilm, "gbuffer", "maxcomponentvalue", "the same as of the film \"rgb\""},
 };

@@ -42,6 +42,7 @@ TEST(Sensor, ImagingRatioIsExposureTimesSensitivity) {
   EXPECT_EQ(sensor({number("iso", 400)}, nullptr, 0.125).imaging_ratio, 0.5);
   EXPECT_EQ(sensor({number("iso", 400), number("exposuretime", 0.5)}, nullptr, 0.125).imaging_ratio, 2.0);
   PixelSample s = sample_of({1, 2, 3}, {4, 5, 6}, {7, 8, 9});
+  EXPECT_EQ(sensor({number("imagingratio", 3)}, nullptr, 0.125).imaging_ratio, 3.0);
   sensor({number("iso", 50)}).expose(s);
   EXPECT_EQ(s.emission[2], 1.5f);
   EXPECT_EQ(s.direct[0], 2.0f);
@@ -78,6 +79,8 @@ TEST(Sensor, WhatCannotBeExposed) {
   EXPECT_NE(problems.find("sensor \"canon_eos_5d\" is not supported yet"), std::string::npos) << problems;
   sensor({number("whitebalance", 900)}, &problems);
   EXPECT_NE(problems.find("valid: 0, or 1500 to 25000"), std::string::npos) << problems;
+  sensor({number("imagingratio", 2), number("iso", 200)}, &problems);
+  EXPECT_NE(problems.find("beside what it stands for"), std::string::npos) << problems;
   sensor({number("iso", -1)}, &problems);
   EXPECT_NE(problems.find("out of range"), std::string::npos) << problems;
 }

@@ -20,6 +20,9 @@ std::vector<ParamDecl> Sensor::params() {
        .unit = "s",
        .doc = "Exposure time, by which radiance is multiplied; by default the time that the camera's shutter is open, "
               "1 if it is an instant. (Of Etendue: pbrt knows the shutter alone.)"},
+      {.name = "imagingratio",
+       .min = 0,
+       .doc = "What radiance is multiplied by, instead of exposuretime times iso / 100."},
       {.name = "whitebalance",
        .default_value = 0.0,
        .min = 0,
@@ -40,6 +43,12 @@ Sensor Sensor::create(const ParamReader& p, double shutter) {
   Sensor s;
   const Param* time = p.given("exposuretime");
   s.imaging_ratio = (time ? time->numbers[0] : shutter) * p.number("iso") / 100.0;
+  if (const Param* ratio = p.given("imagingratio")) {
+    if (time || p.given("iso"))
+      p.diagnostics().error(ratio->loc, "\"imagingratio\" is given beside what it stands for",
+                            "give either it, or \"iso\" and \"exposuretime\"");
+    s.imaging_ratio = ratio->numbers[0];
+  }
   if (const Param* limit = p.given("maxcomponentvalue")) s.max_component = limit->numbers[0];
   s.white_balance = p.number("whitebalance");
   if (s.white_balance > 0 && s.white_balance < kCoolestWhite) {

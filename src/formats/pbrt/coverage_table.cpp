@@ -34,6 +34,7 @@ std::span<const UnsupportedModel> unsupported_models() {
         {"savefp16", "savefp16"},
         {"iso", "iso"},
         {"exposuretime", "exposuretime"},
+        {"imagingratio", "imagingratio"},
         {"whitebalance", "whitebalance"},
         {"maxcomponentvalue", "maxcomponentvalue"}}},
   };
