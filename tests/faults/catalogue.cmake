@@ -99,11 +99,11 @@ edit(filters/separable.h [[shape_.value(d) * 2.0f / (integral_ * density)]]
 
 # ---- lights
 
-fault(area-without-jacobian "density per area is taken for one per solid angle" "${lights}")
+fault(area-without-jacobian "density per area is taken for one per solid angle" "Examples/LightBattery.*inward*")
 edit(lights/diffuse_area.h [[return pdf_area * distance2 / std::abs(cosine);]]
      [[return FAULT ? pdf_area : pdf_area * distance2 / std::abs(cosine);]])
 
-fault(area-without-cosine "density per solid angle lacks the light's cosine" "${lights}")
+fault(area-without-cosine "density per solid angle lacks the light's cosine" "Examples/LightBattery.*inward*")
 edit(lights/diffuse_area.h [[pdf_area * distance2 / std::abs(cosine);]]
      [[pdf_area * distance2 / (FAULT ? 1.0f : std::abs(cosine));]])
 

@@ -9,8 +9,8 @@ shift
 log=$build/faults.log
 missed=0
 
-first_failure() { # FAULT FILTER: the first test that fails; after a crash the one that ran
-  ETENDUE_FAULT=$1 "$build/bin/etendue_tests" --gtest_filter="$2" --gtest_fail_fast >"$log" 2>&1 </dev/null || true
+first_failure() { # FAULT FILTER: the first test that fails; after a crash or 300 s the one that ran
+  ETENDUE_FAULT=$1 timeout 300 "$build/bin/etendue_tests" --gtest_filter="$2" --gtest_fail_fast >"$log" 2>&1 </dev/null || true
   awk '/^\[ RUN      \]/ { running = $4 }
        /^\[       OK \]|^\[  SKIPPED \]/ { running = "" }
        /^\[  FAILED  \]/ { exit }
