@@ -124,8 +124,11 @@ SurfacePoint patch_point(const PatchMesh& mesh, uint32_t index, float u0, float 
   const Patch patch(mesh, index);
   const auto& corners = mesh.patches[index];
   double u = std::clamp(static_cast<double>(u0), 0.0, 1.0), v = std::clamp(static_cast<double>(v0), 0.0, 1.0);
-  const auto error_at = [](Point3d p, Vec3d n) {
-    return 2 * kUnit * (std::abs(n.x * p.x) + std::abs(n.y * p.y) + std::abs(n.z * p.z));
+  // Rounding of the point to float; and, for a patch in a plane of coordinates, where that is nothing, of
+  // intersections.
+  const double solving = 0x1p-10 * kUnit * (length(patch.du(v)) + length(patch.dv(u)));
+  const auto error_at = [solving](Point3d p, Vec3d n) {
+    return solving + 2 * kUnit * (std::abs(n.x * p.x) + std::abs(n.y * p.y) + std::abs(n.z * p.z));
   };
   const double error = error_at(patch.at(u, v), patch.normal(u, v));
   const auto keep = [&](double x, double size) {

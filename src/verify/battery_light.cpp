@@ -142,7 +142,7 @@ void check_power(const LightModel& m, const LightRays& rays, size_t samples, uin
     Spectrum sum;
     Seen seen = rays.look({{o.x, o.y, o.z}, d});
     sum += seen.radiance;
-    // A ray along a flat patch may meet it again and again within rounding; more sheets than this no light has.
+    // More sheets than this no light has: a surface that rays cannot leave shows as too much flux.
     for (int sheet = 0; seen.point && sheet < 16; ++sheet) {
       seen = rays.look(spawn_ray(*seen.point, d));
       sum += seen.radiance;
