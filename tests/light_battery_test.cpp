@@ -3,22 +3,21 @@
 #include <set>
 
 #include "slow_build.h"
+#include "verify/battery.h"
 #include "verify/battery_light.h"
 
 namespace etd {
 namespace {
 
-constexpr size_t kSamples = kSlowBuild ? 4000 : 40000;
-
 // One false alarm in 10^4 runs of the whole battery.
-LightBatteryOptions options_of_seed(uint64_t seed) {
-  return {kSamples, seed, 1e-4 / static_cast<double>(light_examples().size())};
+BatteryOptions options_of_seed(uint64_t seed) {
+  return {kSlowBuild ? 0.1 : 1.0, seed, 1e-4 / static_cast<double>(light_examples().size())};
 }
 
 class LightBattery : public testing::TestWithParam<size_t> {};
 
 TEST_P(LightBattery, Passes) {
-  for (const CheckResult& r : check_light(light_model(light_examples()[GetParam()]), options_of_seed(1)))
+  for (const CheckResult& r : run_subject(light_subjects()[GetParam()], options_of_seed(1)))
     EXPECT_TRUE(r.passed) << to_string(r);
 }
 
@@ -40,8 +39,8 @@ TEST(LightExamples, CoverEveryLight) {
 // None of 30 seeds fails. It takes minutes: run by hand with --gtest_also_run_disabled_tests.
 TEST(LightBatterySeeds, DISABLED_NoFalseAlarmInThirty) {
   for (uint64_t seed = 1; seed <= 30; ++seed)
-    for (const LightExample& e : light_examples())
-      for (const CheckResult& r : check_light(light_model(e), options_of_seed(seed)))
+    for (const BatterySubject& s : light_subjects())
+      for (const CheckResult& r : s.check(options_of_seed(seed)))
         EXPECT_TRUE(r.passed) << "seed " << seed << ": " << to_string(r);
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/picture.h"
 #include "render_helper.h"
+#include "second_run.h"
 #include "shared_path.h"
 #include "verify/compare.h"
 
@@ -85,24 +86,22 @@ Blocks compare_blocks(const BlockScene& scene, const std::filesystem::path& fold
   return blocks;
 }
 
-// False alarms: 1e-4 for each scene, squared because a failure is repeated with four times the samples and another
-// seed.
+// False alarms: kLevel for each scene, squared because a failure is repeated (second_run.h).
 void expect_blocks(const BlockScene& scene, uint32_t more = 1) {
   const std::filesystem::path folder = shared_path(std::string("scenes/pbrt/") + scene.name);
   if (folder.empty()) GTEST_SKIP() << "the shared folder with the scene " << scene.name << " is absent";
-  Blocks blocks = compare_blocks(scene, folder, scene.spp * more, 11);
-  if (!blocks.failed.empty()) {
-    std::cout << scene.name << ": " << blocks.failed.size()
-              << " blocks differ, once more with four times the samples\n";
-    blocks = compare_blocks(scene, folder, 4 * scene.spp * more, 12);
-  }
-  std::cout << fmt::format("{:12} {} blocks, {} excused, {} differ; median standard error {:.2f} %\n", scene.name,
-                           blocks.tested, blocks.excused, blocks.failed.size(), 100 * blocks.error);
-  for (const RegionTest& t : blocks.failed)
-    ADD_FAILURE() << fmt::format("{}: block at {},{}: ours {:.5f}, theirs {:.5f}, t = {:.2f}, p = {:.2g}", scene.name,
-                                 t.region.x0, t.region.y0, t.a, t.b, t.result.statistic, t.result.p_value);
-  EXPECT_GT(blocks.tested, 100u);
-  EXPECT_LE(static_cast<double>(scene.excused.size()), 0.005 * static_cast<double>(blocks.tested));
+  expect_in_two_runs(scene.name, [&](const TestRun& run) {
+    const Blocks blocks = compare_blocks(scene, folder, scene.spp * more * run.more, 11 + run.fresh_seeds);
+    std::cout << fmt::format("{:12} {} blocks, {} excused, {} differ; median standard error {:.2f} %\n", scene.name,
+                             blocks.tested, blocks.excused, blocks.failed.size(), 100 * blocks.error);
+    EXPECT_GT(blocks.tested, 100u);
+    EXPECT_LE(static_cast<double>(scene.excused.size()), 0.005 * static_cast<double>(blocks.tested));
+    Objections differences;
+    for (const RegionTest& t : blocks.failed)
+      differences.push_back(fmt::format("block at {},{}: ours {:.5f}, theirs {:.5f}, t = {:.2f}, p = {:.2g}",
+                                        t.region.x0, t.region.y0, t.a, t.b, t.result.statistic, t.result.p_value));
+    return differences;
+  });
 }
 
 const BlockScene kCornellBox{"cornell-box", 16, 1024, {}}, kVeachMis{"veach-mis", 64, 1024, {}},

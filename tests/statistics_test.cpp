@@ -44,6 +44,7 @@ TEST(Statistics, LevelsOfManyTests) {
   EXPECT_NEAR(sidak_level(0.05, 10), 1.0 - std::pow(0.95, 0.1), 1e-15);
   EXPECT_NEAR(sidak_combined(sidak_level(1e-4, 1000), 1000), 1e-4, 1e-15);
   EXPECT_EQ(bonferroni_level(0.05, 10), 0.005);
+  EXPECT_NEAR(repeated_level(1e-4, 4, 10), 5e-4, 1e-18);
 }
 
 RunningStats stats_of(std::initializer_list<double> values) {

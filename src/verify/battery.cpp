@@ -1,8 +1,11 @@
 #include "verify/battery.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/hash.h"
+#include "verify/statistics.h"
 
 namespace etd {
 
@@ -17,18 +20,23 @@ std::vector<BatterySubject> battery_subjects() {
 }
 
 std::vector<CheckResult> run_subject(const BatterySubject& subject, BatteryOptions options) {
-  options.family_level *= 0.5;
-  std::vector<CheckResult> results = subject.check(options);
-  const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return !r.passed; });
-  const bool certain =
-      std::any_of(results.begin(), results.end(), [](const auto& r) { return !r.passed && !r.p_value; });
-  if (!failed || certain) return results;
+  options.family_level = repeated_level(options.family_level, 1, 1);
+  const std::vector<CheckResult> first = subject.check(options);
+  const bool failed = std::any_of(first.begin(), first.end(), [](const auto& r) { return !r.passed; });
+  const bool certain = std::any_of(first.begin(), first.end(), [](const auto& r) { return !r.passed && !r.p_value; });
+  if (!failed || certain) return first;
   options.samples *= 4.0;
   options.seed = hash_combine(options.seed, 4);
-  results = subject.check(options);
-  for (CheckResult& r : results)
-    if (r.p_value) r.text = "second run, four times the samples: " + r.text;
-  return results;
+  std::vector<CheckResult> second = subject.check(options);
+  for (CheckResult& r : second) {
+    if (!r.p_value) continue;
+    const auto before =
+        std::find_if(first.begin(), first.end(), [&r](const CheckResult& f) { return f.name == r.name && f.p_value; });
+    r.text =
+        fmt::format("second run, four times the samples{}: {}",
+                    before != first.end() ? fmt::format(" (first run: p = {:.3g})", *before->p_value) : "", r.text);
+  }
+  return second;
 }
 
 }  // namespace etd

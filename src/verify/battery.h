@@ -39,7 +39,7 @@ std::vector<BatterySubject> light_sampler_subjects();
 std::vector<BatterySubject> battery_subjects();
 
 // Checks a subject. If only statistics speak against it, once more with four times the samples and another seed: that
-// run decides, and says so. The level of each run is half of `family_level`, so both together keep it.
+// run decides, and shows both results. Each run has the level repeated_level(family_level), which both together keep.
 std::vector<CheckResult> run_subject(const BatterySubject& subject, BatteryOptions options);
 
 }  // namespace etd

@@ -8,8 +8,9 @@ namespace etd::bsdf_checks {
 
 namespace {
 
-// Integration errs by about this share of the whole; differences below it say nothing.
-constexpr double kIntegrationError = 2e-4;
+// Integration errs by about this share of the whole (at worst by four times it: 1.2e-3 for rough glass of index 1.3,
+// whose density ends inside cells); differences below it say nothing.
+constexpr double kIntegrationError = 3e-4;
 constexpr double kMinExpected = 20.0;
 constexpr size_t kCells = 256;
 

@@ -30,9 +30,4 @@ std::vector<FilmTest> compare_films(const Film& a, const Film& b, double planted
   return tests;
 }
 
-bool films_agree(const Film& a, const Film& b, double level) {
-  const std::vector<FilmTest> tests = compare_films(a, b);
-  return std::all_of(tests.begin(), tests.end(), [level](const FilmTest& t) { return t.result.p_value >= level; });
-}
-
 }  // namespace etd

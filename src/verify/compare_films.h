@@ -23,8 +23,6 @@ inline constexpr int kFilmBlock = 8;
 std::vector<FilmTest> compare_films(const Film& a, const Film& b, double planted = 1.0);
 // How many tests that makes.
 uint64_t film_test_count(int width, int height);
-// Whether no test falls below `level`.
-bool films_agree(const Film& a, const Film& b, double level);
 // How many of the tests, from the first, are R, G and B of the image.
 inline constexpr size_t kImageChannelTests = 3;
 

@@ -89,6 +89,9 @@ double sidak_level(double family, uint64_t tests) {
 double bonferroni_level(double family, uint64_t tests) {
   return tests == 0 ? family : family / static_cast<double>(tests);
 }
+double repeated_level(double family, uint64_t groups, uint64_t tests) {
+  return bonferroni_level(std::sqrt(bonferroni_level(family, groups)), tests);
+}
 double sidak_combined(double smallest_p, uint64_t tests) {
   if (smallest_p >= 1.0) return 1.0;
   return -std::expm1(static_cast<double>(tests) * std::log1p(-smallest_p));

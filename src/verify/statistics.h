@@ -27,6 +27,11 @@ double student_t_two_sided(double t, double dof);
 // `family` (Sidak 1967); Bonferroni's holds for dependent tests too.
 double sidak_level(double family, uint64_t tests);
 double bonferroni_level(double family, uint64_t tests);
+// The level for each of `tests` tests, dependent or not, in each of `groups` groups, where a group in which a test
+// fails is tested again with fresh random numbers and raises an alarm only if a test fails again. Each run of a group
+// fails by chance with a probability of at most tests * level, both with its square, so that groups (tests level)^2 =
+// family.
+double repeated_level(double family, uint64_t groups, uint64_t tests);
 // The p-value of the smallest of `tests` independent p-values.
 double sidak_combined(double smallest_p, uint64_t tests);
 
