@@ -65,6 +65,13 @@ int points_for(const AreaEmission& emission, size_t surfaces) {
   return static_cast<int>(std::clamp(std::ceil(texels / std::sqrt(static_cast<double>(surfaces))), 8.0, 1024.0));
 }
 
+// A light of infinite power could not be chosen by its power, and would be dark.
+void check_power(const Spectrum& power, const ModelUse& use, Diagnostics& diagnostics) {
+  if (is_finite(power)) return;
+  diagnostics.error(use.loc, fmt::format("the power of this {} light is beyond the largest number, 3.4e38 W", use.model),
+                    "scale the light of the scene down; \"iso\" of the film can scale the picture up again");
+}
+
 }  // namespace
 
 AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
@@ -94,8 +101,9 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invis
   const AreaEmission e = emission(use, invisible);
   auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
   auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
-  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power",
-                                     total_power(rectangles) + total_power(triangles));
+  const Spectrum power = total_power(rectangles) + total_power(triangles);
+  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", power);
+  check_power(power * scale, use, diagnostics_);
   const auto first = static_cast<uint32_t>(scene_.lights.size());
   for (auto& light : rectangles) scene_.lights.push_back(Light(light.scaled(scale)));
   for (auto& light : triangles) scene_.lights.push_back(Light(light.scaled(scale)));
@@ -110,7 +118,9 @@ void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool in
   for (uint32_t i = 0; i < mesh.patches.size(); ++i) surfaces.emplace_back(mesh, i);
   const AreaEmission e = emission(use, invisible);
   const auto lights = lights_on(surfaces, e, points_for(e, surfaces.size()));
-  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", total_power(lights));
+  const Spectrum power = total_power(lights);
+  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", power);
+  check_power(power * scale, use, diagnostics_);
   scene_.patch_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
   for (const auto& light : lights) {
     scene_.face_lights.push_back(static_cast<uint32_t>(scene_.lights.size()));
@@ -123,6 +133,7 @@ void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool in
   const AreaEmission e = emission(use, invisible);
   const DiffuseAreaLight<QuadricSurface> light(e, QuadricSurface(scene_.geometry.quadrics[index]), points_for(e, 1));
   const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", light.power());
+  check_power(light.power() * scale, use, diagnostics_);
   scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
   scene_.lights.push_back(Light(light.scaled(scale)));
   ++scene_.summary.lights[use.model + " area light"];
@@ -163,6 +174,7 @@ void compile_lights(const SceneDescription& description, Scene& scene, Diagnosti
                          {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
                          diagnostics);
     if (!light) continue;
+    check_power(light->power(), desc.use, diagnostics);
     if (light->is_infinite() && !light->is_delta())
       scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
     scene.lights.push_back(*light);
