@@ -453,7 +453,9 @@ TEST_F(Cli, DiffSaysSameDifferentOrUnknown) {
   EXPECT_TRUE(has(done.out, "DIFFERENT"));
   EXPECT_EQ(nlohmann::json::parse(text(folder_.path() / "d.json"))["answer"], "different");
   EXPECT_EQ(run("diff a.exr a.exr").exit_code, 0);
-  EXPECT_EQ(run("diff a.png a.png").exit_code, 0);
+  done = run("diff a.png a.png");
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_TRUE(has(done.out, "No difference: every bit is the same")) << done.out;
   done = run("diff a.exr a.png");
   EXPECT_EQ(done.exit_code, 3);
   EXPECT_TRUE(has(done.out, "No verdict, since an error is unknown: a.png")) << done.out;

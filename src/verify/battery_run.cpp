@@ -101,10 +101,16 @@ std::string battery_table(const BatteryRun& run, bool details) {
                         model, m.settings, m.results.size(), p ? fmt::format("{:.2g}", *p) : "-", largest_deviation(m),
                         m.seconds, m.passed() ? "ok" : "FAILED");
   }
-  for (const ModelReport& m : run.models)
-    for (const CheckResult& r : m.results)
+  size_t settings = 0, checks = 0, failed = 0;
+  for (const ModelReport& m : run.models) {
+    settings += m.settings, checks += m.results.size();
+    for (const CheckResult& r : m.results) {
       if (details || !r.passed) text += to_string(r) + "\n";
-  return text;
+      failed += r.passed ? 0 : 1;
+    }
+  }
+  return text + fmt::format("{} models, {} settings, {} checks: {}\n", run.models.size(), settings, checks,
+                            failed == 0 ? "all passed" : fmt::format("{} FAILED", failed));
 }
 
 std::string battery_json(const BatteryRun& run) {

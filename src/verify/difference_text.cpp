@@ -129,6 +129,7 @@ std::string difference_text(const Difference& d) {
   }
   for (const std::string& note : d.notes) text += "note: " + note + "\n";
   if (d.verdict) return text + verdict_text(d, *d.verdict);
+  if (d.identical) return text + "No difference: every bit is the same\n";
   return text + fmt::format("No verdict, since an error is unknown: {}\n", d.no_verdict);
 }
 

@@ -155,6 +155,22 @@ fault(mis-without-choice-of-light "the weight of emission leaves out the chance 
 edit(integrators/path.cpp [[pdf_light = lights.probability(light) * pdf;]]
      [[pdf_light = (FAULT ? 1.0f : lights.probability(light)) * pdf;]])
 
+fault(power-heuristic-squares-one "the power heuristic squares one of the two densities alone" "VerifyScene.*")
+edit(integrators/mis.h [[p2 / (p2 + o2) : larger;]] [[p2 / (p2 + (FAULT ? other : o2)) : larger;]])
+
+fault(balance-heuristic-counts-twice "the balance heuristic counts its own density twice" "VerifyScene.*")
+edit(integrators/mis.h [[isfinite(sum) ? pdf / sum : larger;]] [[isfinite(sum) ? pdf / (FAULT ? sum + pdf : sum) : larger;]])
+
+fault(maximum-heuristic-overlaps "both techniques count where their densities are alike" "StatisticalAgreement.ConductorBox")
+edit(integrators/mis.h [[const float larger = pdf > other ? 1.0f]] [[const float larger = pdf > (FAULT ? 0.8f : 1.0f) * other ? 1.0f]])
+
+fault(uniform-heuristic-of-one "uniform weights are one half even where one technique is alone" "StatisticalAgreement.SkyAndInstances")
+edit(integrators/mis.h [[(other > 0.0f ? 0.5f : 1.0f)]] [[(FAULT || other > 0.0f ? 0.5f : 1.0f)]])
+
+fault(uniform-choice-weighted-by-power "lights chosen all alike are weighted as if by their power" "VerifyScene.*")
+edit(integrators/path.cpp [[const float pdf = choice->probability * s->pdf;]]
+     [[const float pdf = (FAULT ? scene.light_sampler.probability(choice->light) : choice->probability) * s->pdf;]])
+
 closed_forms(tests latlong_sky equal_area_sky)
 fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")
 edit(integrators/path.cpp [[return mode == PathMode::kMis ? LightSampling::kCompensated]]
