@@ -147,6 +147,17 @@ Pooled report(const std::string& name, std::span<const PixelStudy> pixels, size_
   return pooled;
 }
 
+void print_by_skewness(std::vector<PixelStudy> pixels, size_t seeds) {
+  std::sort(pixels.begin(), pixels.end(),
+            [](const PixelStudy& a, const PixelStudy& b) { return a.skewness < b.skewness; });
+  for (size_t decile = 0; decile < 10; ++decile) {
+    const size_t begin = pixels.size() * decile / 10, end = pixels.size() * (decile + 1) / 10;
+    const Pooled pooled = pool(std::span(pixels).subspan(begin, end - begin), seeds);
+    std::cout << fmt::format("  decile {:2}: skewness {:6.2f} to {:6.2f}, coverage {:.1f} %\n", decile + 1,
+                             pixels[begin].skewness, pixels[end - 1].skewness, 100 * pooled.coverage());
+  }
+}
+
 // Pixels that never degenerate against the binomial distribution of their own pooled coverage: p-value.
 double binomial_p(std::span<const PixelStudy> pixels, size_t seeds) {
   std::vector<double> observed(seeds + 1, 0.0), expected(seeds + 1);
@@ -174,6 +185,7 @@ void expect_honest(const Scene& scene) {
   const double p = binomial_p(pixels, kSeeds);
   std::cout << fmt::format("{:32} hits of pixels against the binomial distribution: p = {:.3g}\n", scene.name, p);
   EXPECT_GT(p, 1e-4);
+  print_by_skewness(pixels, kSeeds);
 }
 
 TEST(SlowIntervals, SoftShadow) { expect_honest(kSoft); }
@@ -210,18 +222,11 @@ TEST(SlowIntervals, EightReplicatesAgainstTwoUnderSobol) {
 void report_by_skewness(const std::string& name) {
   const std::filesystem::path folder = shared_path("scenes/pbrt/" + name);
   if (folder.empty()) GTEST_SKIP() << "the shared folder with the scene " << name << " is absent";
-  auto pixels = study(kSeeds, [&](size_t seed) {
+  const auto pixels = study(kSeeds, [&](size_t seed) {
     return render_scene(folder / "reference-grey.pbrt", overrides("independent", 64, 8, seed));
   });
   report(name + ", independent 64 spp", pixels, kSeeds);
-  std::sort(pixels.begin(), pixels.end(),
-            [](const PixelStudy& a, const PixelStudy& b) { return a.skewness < b.skewness; });
-  for (size_t decile = 0; decile < 10; ++decile) {
-    const size_t begin = pixels.size() * decile / 10, end = pixels.size() * (decile + 1) / 10;
-    const Pooled pooled = pool(std::span(pixels).subspan(begin, end - begin), kSeeds);
-    std::cout << fmt::format("  decile {:2}: skewness {:6.2f} to {:6.2f}, coverage {:.1f} %\n", decile + 1,
-                             pixels[begin].skewness, pixels[end - 1].skewness, 100 * pooled.coverage());
-  }
+  print_by_skewness(pixels, kSeeds);
 }
 
 TEST(SlowIntervals, CornellBoxBySkewness) { report_by_skewness("cornell-box"); }

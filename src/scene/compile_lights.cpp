@@ -68,7 +68,8 @@ int points_for(const AreaEmission& emission, size_t surfaces) {
 // A light of infinite power could not be chosen by its power, and would be dark.
 void check_power(const Spectrum& power, const ModelUse& use, Diagnostics& diagnostics) {
   if (is_finite(power)) return;
-  diagnostics.error(use.loc, fmt::format("the power of this {} light is beyond the largest number, 3.4e38 W", use.model),
+  diagnostics.error(use.loc,
+                    fmt::format("the power of this {} light is beyond the largest number, 3.4e38 W", use.model),
                     "scale the light of the scene down; \"iso\" of the film can scale the picture up again");
 }
 
