@@ -56,6 +56,11 @@ AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 4 3 2 ]
 Shape "trianglemesh" "point3 P" [ -2 -2 4  2 -2 4  2 2 4  -2 2 4 ] "integer indices" [ 0 2 1 0 3 2 ]
 AttributeEnd)";
+const std::string kTwoLamps = kLamp + R"(
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 1 1 3 ]
+Shape "sphere" "float radius" 0.4
+AttributeEnd)";
 const std::string kSun = R"(
 AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 100000 90000 80000 ]
@@ -64,7 +69,7 @@ Shape "sphere" "float radius" 0.3
 AttributeEnd)";
 
 TEST(VerifyScene, AllEstimatorsAgree) {
-  const auto all = reports(scene(kSky + kLamp, R"(Material "conductor" "float roughness" 0.3)"), 512);
+  const auto all = reports(scene(kSky + kTwoLamps, R"(Material "conductor" "float roughness" 0.3)"), 512);
   EXPECT_EQ(all.size(), 8u);
   for (const auto& [name, e] : all)
     EXPECT_EQ(e.verdict, name == "mis" ? Agreement::kReference : Agreement::kAgrees) << name << ": " << e.reason;

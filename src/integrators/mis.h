@@ -26,8 +26,8 @@ inline MisHeuristic mis_heuristic(std::string_view name) {
 // The weight of a sample made with density `pdf` that the other technique makes with density `other`. The weights of
 // the two sum to 1 wherever one of them is positive. Infinite densities come from squares that no float holds.
 inline float mis_weight(MisHeuristic heuristic, float pdf, float other) {
-  if (std::isinf(pdf)) return 1.0f;
   const float larger = pdf > other ? 1.0f : (pdf == other && pdf > 0.0f ? 0.5f : 0.0f);
+  if (std::isinf(pdf) || std::isinf(other)) return larger;
   switch (heuristic) {
     case MisHeuristic::kBalance: {
       const float sum = pdf + other;
