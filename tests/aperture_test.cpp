@@ -114,6 +114,26 @@ TEST(StatisticalAperture, SamplesFollowTheShape) {
   }
 }
 
+// The told density is that of the shape, scaled to an integral of 1.
+TEST(Aperture, DensityIsThatOfTheShape) {
+  constexpr int kFine = 500;
+  const auto at = [](int k) { return 2.2 * (k + 0.5) / kFine - 1.1; };
+  for (const Case& c : cases()) {
+    CameraData data;
+    const Aperture a = make(c.params, data).aperture;
+    double told = 0, total = 0, apart = 0;
+    for (int i = 0; i < kFine * kFine; ++i) total += c.density(at(i % kFine), at(i / kFine));
+    for (int i = 0; i < kFine * kFine; ++i) {
+      const double x = at(i % kFine), y = at(i / kFine);
+      const double density = a.density({static_cast<float>(x), static_cast<float>(y)}) * sqr(2.2 / kFine);
+      told += density;
+      apart += std::abs(density - c.density(x, y) / total);
+    }
+    EXPECT_NEAR(told, 1, 1e-2) << c.name;  // edges cut the squares of the sum
+    EXPECT_LT(apart, 1e-2) << c.name;
+  }
+}
+
 // The whole range of random numbers stays in the opening's circle (or an image's square).
 TEST(Aperture, EdgesOfTheUnitSquare) {
   for (const Case& c : cases()) {

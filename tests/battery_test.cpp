@@ -16,7 +16,7 @@ namespace {
 
 double sample_factor(const std::string& family) {
   if (kSlowBuild) return 0.05;
-  return family == "material" ? 0.2 : family == "sampler" ? 0.5 : 0.2;
+  return family == "sampler" ? 0.5 : family == "camera" ? 0.4 : 0.2;
 }
 
 // One false alarm in 10^4 runs of all families; each subject may have a second run.

@@ -120,17 +120,18 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
 
 Vec2 Aperture::sample_round(Vec2 u) { return sample_disk_concentric(u); }
 
+Vec2 Aperture::star_corner(int i) const {
+  const float angle = kPi / 2 + kPi * static_cast<float>(i) / static_cast<float>(points_);
+  const float radius = i % 2 == 0 ? outer_ : inner_;
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
 // The star is 2 points_ triangles of equal area around its middle.
 Vec2 Aperture::sample_star(Vec2 u) const {
   const float scaled = u.x * static_cast<float>(2 * points_);
   const int sector = std::min(static_cast<int>(scaled), 2 * points_ - 1);
   const Vec2 b = sample_triangle_uniform({std::min(scaled - static_cast<float>(sector), kOneMinusEpsilon), u.y});
-  const auto corner = [this](int i) {
-    const float angle = kPi / 2 + kPi * static_cast<float>(i) / static_cast<float>(points_);
-    const float radius = i % 2 == 0 ? outer_ : inner_;
-    return Vec2{radius * std::cos(angle), radius * std::sin(angle)};
-  };
-  const Vec2 p = corner(sector), q = corner(sector + 1);
+  const Vec2 p = star_corner(sector), q = star_corner(sector + 1);
   return {b.x * p.x + b.y * q.x, b.x * p.y + b.y * q.y};
 }
 
@@ -138,6 +139,29 @@ Vec2 Aperture::sample_image(Vec2 u) const {
   const GridDistribution::Sample s = image_->sample(u);
   return {corner_.x + step_.x * (static_cast<float>(s.x) + s.offset.x),
           corner_.y + step_.y * (static_cast<float>(s.y) + s.offset.y)};
+}
+
+float Aperture::density(Vec2 p) const {
+  if (shape_ == Shape::kRound) return p.x * p.x + p.y * p.y <= 1.0f ? pdf_disk() : 0.0f;
+  const Vec2 q{turn_.x * p.x + turn_.y * p.y, turn_.x * p.y - turn_.y * p.x};
+  return shape_ == Shape::kStar ? density_star(q) : density_image(q);
+}
+
+float Aperture::density_star(Vec2 p) const {
+  // The triangle whose sector p is in, and whether p is on the middle's side of the line between its corners.
+  const float sectors = static_cast<float>(2 * points_);
+  const float turns = (std::atan2(p.y, p.x) - kPi / 2) / (2.0f * kPi);
+  const auto sector = static_cast<int>((turns - std::floor(turns)) * sectors);
+  const Vec2 a = star_corner(sector), b = star_corner(sector + 1);
+  if ((b.x - a.x) * (p.y - a.y) < (b.y - a.y) * (p.x - a.x)) return 0.0f;
+  return 1.0f / (0.5f * sectors * (a.x * b.y - a.y * b.x));
+}
+
+float Aperture::density_image(Vec2 p) const {
+  const float x = std::floor((p.x - corner_.x) / step_.x), y = std::floor((p.y - corner_.y) / step_.y);
+  if (!(x >= 0.0f && x < static_cast<float>(image_->width()) && y >= 0.0f && y < static_cast<float>(image_->height())))
+    return 0.0f;
+  return image_->probability(static_cast<int>(x), static_cast<int>(y)) / std::abs(step_.x * step_.y);
 }
 
 }  // namespace etd

@@ -24,12 +24,17 @@ class Aperture {
     const Vec2 p = shape_ == Shape::kStar ? sample_star(u) : sample_image(u);
     return {turn_.x * p.x - turn_.y * p.y, turn_.y * p.x + turn_.x * p.y};
   }
+  // The density of sample() per area of that plane; 0 outside of the opening.
+  float density(Vec2 p) const;
 
  private:
   enum class Shape : uint8_t { kRound, kStar, kImage };
   static Vec2 sample_round(Vec2 u);
   Vec2 sample_star(Vec2 u) const;
   Vec2 sample_image(Vec2 u) const;
+  Vec2 star_corner(int i) const;
+  float density_star(Vec2 p) const;
+  float density_image(Vec2 p) const;
   static Aperture star(int points, float outer, float inner);
   static Aperture named(const std::string& name, CameraData& data);
   static Aperture of_weights(int width, int height, const std::vector<double>& weights, CameraData& data);

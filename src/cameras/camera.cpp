@@ -12,12 +12,12 @@ using Cameras = TypeList<OrthographicCamera, PerspectiveCamera, SphericalCamera>
 }  // namespace
 
 template <class T>
-Camera::Camera(const T& camera) {
+Camera::Camera(const T& camera, int width, int height) : size_{static_cast<float>(width), static_cast<float>(height)} {
   storage_.store<Cameras>(camera);
 }
-template Camera::Camera(const OrthographicCamera&);
-template Camera::Camera(const PerspectiveCamera&);
-template Camera::Camera(const SphericalCamera&);
+template Camera::Camera(const OrthographicCamera&, int, int);
+template Camera::Camera(const PerspectiveCamera&, int, int);
+template Camera::Camera(const SphericalCamera&, int, int);
 
 void Camera::set_motion(const Shutter& shutter, std::optional<AnimatedTransform> motion) {
   shutter_ = shutter;
@@ -26,14 +26,47 @@ void Camera::set_motion(const Shutter& shutter, std::optional<AnimatedTransform>
 
 Ray Camera::generate_ray(const CameraSample& sample) const {
   Ray ray = dispatch<Ray, Cameras>(storage_, [&](const auto& c) { return c.generate_ray(sample); });
-  const double u = static_cast<double>(sample.time);
-  ray.time = clamp(static_cast<float>(shutter_.open + (shutter_.close - shutter_.open) * u), 0.0f, 1.0f);
+  ray.time = ray_time(sample.time);
   if (motion_) {
     const Transform t = motion_->at(ray.time);
     ray.o = to_float(t.point(to_double(ray.o)));
     ray.d = normalize(to_float(t.vector(to_double(ray.d))));
   }
   return ray;
+}
+
+float Camera::ray_time(float u) const {
+  return clamp(static_cast<float>(shutter_.open + (shutter_.close - shutter_.open) * static_cast<double>(u)), 0.0f,
+               1.0f);
+}
+
+namespace {
+
+// Calls f with the camera as it stands at the time.
+template <class R, class Storage, class F>
+R at_time(const Storage& storage, const std::optional<AnimatedTransform>& motion, float time, F&& f) {
+  return dispatch<R, Cameras>(storage, [&](auto camera) {
+    if (motion) camera.move(motion->at(time));
+    return f(camera);
+  });
+}
+
+}  // namespace
+
+bool Camera::on_film(Vec2 film, float margin) const {
+  return film.x >= -margin && film.x < size_.x + margin && film.y >= -margin && film.y < size_.y + margin;
+}
+
+std::optional<CameraImportance> Camera::we(const Ray& ray, float margin) const {
+  using Result = std::optional<CameraImportance>;
+  const auto result = at_time<Result>(storage_, motion_, ray.time, [&](const auto& c) { return c.we(ray.o, ray.d); });
+  return result && on_film(result->film, margin) ? result : std::nullopt;
+}
+
+std::optional<CameraConnection> Camera::sample_wi(Point3 p, Vec2 u_lens, float time, float margin) const {
+  using Result = std::optional<CameraConnection>;
+  const auto result = at_time<Result>(storage_, motion_, time, [&](const auto& c) { return c.sample_wi(p, u_lens); });
+  return result && on_film(result->importance.film, margin) ? result : std::nullopt;
 }
 
 std::span<const ModelDecl* const> camera_models() {
@@ -44,10 +77,11 @@ std::span<const ModelDecl* const> camera_models() {
 
 Camera make_camera(const ModelUse& use, const CameraFrame& frame, CameraData& data, Diagnostics& diagnostics) {
   const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
+  const auto made = [&](const auto& camera) { return Camera(camera, frame.width, frame.height); };
   if (use.model == "orthographic")
-    return Camera(OrthographicCamera::create(reader(OrthographicCamera::decl()), frame, data));
-  if (use.model == "spherical") return Camera(SphericalCamera::create(reader(SphericalCamera::decl()), frame));
-  return Camera(PerspectiveCamera::create(reader(PerspectiveCamera::decl()), frame, data));
+    return made(OrthographicCamera::create(reader(OrthographicCamera::decl()), frame, data));
+  if (use.model == "spherical") return made(SphericalCamera::create(reader(SphericalCamera::decl()), frame));
+  return made(PerspectiveCamera::create(reader(PerspectiveCamera::decl()), frame, data));
 }
 
 }  // namespace etd

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "cameras/importance.h"
 #include "cameras/shutter.h"
 #include "core/animated_transform.h"
 #include "core/distribution.h"
@@ -27,7 +28,7 @@ class Camera {
  public:
   Camera() = default;
   template <class T>
-  explicit Camera(const T& camera);
+  Camera(const T& camera, int width, int height);
 
   // When rays start, with 0 and 1 the start and the end of the scene's motion; before and after they are those. A
   // motion carries the camera from the space in which it was made.
@@ -35,9 +36,24 @@ class Camera {
 
   // A ray of unit direction, weighted 1.
   Ray generate_ray(const CameraSample& sample) const;
+  // The time of a ray that is made with this CameraSample::time.
+  float ray_time(float u) const;
+
+  // Of a ray of unit direction that starts on the lens, at its time. Film positions may be up to `margin` pixels beyond
+  // the film, from where filters spread light onto it; those of a spherical camera, whose film has no beyond, are on
+  // it. Nothing if the camera makes no such ray: it starts beside the lens or in front of it (up to rounding), or goes
+  // to where the film is not. Nothing also of an orthographic camera that `blurs_alike`: its rays have lost from which
+  // point of the film they are.
+  std::optional<CameraImportance> we(const Ray& ray, float margin = 0) const;
+  // The way from p (recentred world) at a ray's time to a point of the lens, in proportion to the aperture: u_lens in
+  // [0, 1)^2. Nothing if the camera does not see p through that point on the film or within the margin.
+  std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens, float time, float margin = 0) const;
 
  private:
+  bool on_film(Vec2 film, float margin) const;
+
   TaggedStorage<144> storage_;
+  Vec2 size_;  // of the film, in pixels
   Shutter shutter_;
   std::optional<AnimatedTransform> motion_;
 };

@@ -32,4 +32,19 @@ Lens Lens::create(const ParamReader& p, const CameraFrame& frame, CameraData& da
   return lens;
 }
 
+float Lens::density(Vec3d offset, double rounding) const {
+  if (is_pinhole()) return length(offset) <= rounding ? 1.0f : 0.0f;
+  const PlaneBasis plane(x, y);
+  const double area = plane.area();
+  if (std::abs(dot(offset, plane.normal)) > rounding * area) return 0.0f;
+  // All openings but some images are seen whole from their middle: drawing points towards it widens their rim.
+  const double shrink = 1.0 / (1.0 + rounding / std::min(length(plane.a), length(plane.b)));
+  return aperture.density(plane.coordinates(offset * shrink)) / static_cast<float>(area);
+}
+
+void Lens::move(const Transform& t) {
+  x = to_float(t.vector(to_double(x)));
+  y = to_float(t.vector(to_double(y)));
+}
+
 }  // namespace etd

@@ -17,6 +17,15 @@ struct OrthographicCamera {
   Ray generate_ray(const CameraSample& s) const {
     return lens.ray(corner + (dx * s.film.x + dy * s.film.y), forward, s);
   }
+  // Whether a lens turns rays so little (less than 1e-3 at its rim) that rounding hides from which of its points they
+  // come: their directions are then taken for one.
+  bool blurs_alike() const { return length(lens.x) * lens.curvature < 1e-3f * length(forward); }
+  std::optional<CameraImportance> we(Point3 o, Vec3 d) const;
+  std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens) const;
+  void move(const Transform& t);
+
+ private:
+  CameraImportance through(Vec3d from_corner, float lens_density, Vec3 d) const;
 };
 
 }  // namespace etd

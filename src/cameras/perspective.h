@@ -15,6 +15,12 @@ struct PerspectiveCamera {
   static PerspectiveCamera create(const ParamReader& p, const CameraFrame& frame, CameraData& data);
 
   Ray generate_ray(const CameraSample& s) const { return lens.ray(origin, corner + dx * s.film.x + dy * s.film.y, s); }
+  std::optional<CameraImportance> we(Point3 o, Vec3 d) const;
+  std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens) const;
+  void move(const Transform& t);
+
+ private:
+  std::optional<CameraImportance> through(Vec3d offset, float pdf_position, Vec3 d) const;
 };
 
 }  // namespace etd

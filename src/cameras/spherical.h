@@ -20,6 +20,13 @@ struct SphericalCamera {
   }
   // Of a point of the image as a share of its sides, in camera space.
   Vec3 direction(Vec2 st) const;
+  std::optional<CameraImportance> we(Point3 o, Vec3 d) const;
+  std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens) const;
+  void move(const Transform& t);
+
+ private:
+  std::optional<CameraImportance> along(Vec3 d) const;
+  Vec2 film(Vec3 d) const;
 };
 
 }  // namespace etd

@@ -48,6 +48,8 @@ class GridDistribution {
   // width * height weights, row by row, finite and not negative. If all are zero, every cell has probability 0.
   GridDistribution(int width, int height, std::span<const double> weights);
 
+  int width() const { return width_; }
+  int height() const { return static_cast<int>(rows_.size()); }
   // Whether any cell can be chosen.
   bool any() const { return !rows_.empty(); }
   // The cell for u in [0, 1)^2; only if any() is true.

@@ -1,25 +1,24 @@
-// The battery over cameras: unit rays whatever the sample, the same ray for the same sample, all rays of a point of the
+// The rays of cameras: of unit length whatever the sample, the same for the same sample, all those of a point of the
 // film through one point, and the law by which each kind of camera spreads the film over directions or positions.
+#include "verify/battery_camera.h"
+
 #include <fmt/format.h>
 
 #include "core/hash.h"
-#include "scene/registry.h"
-#include "verify/bare_scene.h"
-#include "verify/battery.h"
-#include "verify/parameter_grid.h"
+#include "verify/camera_model.h"
 #include "verify/worst.h"
 
 namespace etd {
 
 namespace {
 
-constexpr int kWidth = 24, kHeight = 16;
+constexpr int kWidth = CameraModel::kFilmWidth, kHeight = CameraModel::kFilmHeight;
 const Vec2 kMiddle{0.5f, 0.5f};  // of the lens
 constexpr float kTime = 0.5f;
 
 Point3d along(const Ray& r, double t) { return to_double(r.o) + to_double(r.d) * t; }
 
-void check_rays(const Camera& camera, uint64_t seed, Worst& finite, Worst& same) {
+void check_rays(const CameraModel& camera, uint64_t seed, Worst& finite, Worst& same) {
   HashStream numbers(seed);
   for (int i = 0; i < 4000; ++i) {
     const auto edge = [&](float v) { return i % 4 == 0 ? std::round(v) * kOneMinusEpsilon : v; };
@@ -37,7 +36,7 @@ void check_rays(const Camera& camera, uint64_t seed, Worst& finite, Worst& same)
 
 // Rays through different points of the lens meet in one point: their distance from the middle one along it falls to
 // zero, at the same place for all.
-void check_focus(const Camera& camera, Worst& focus) {
+void check_focus(const CameraModel& camera, Worst& focus) {
   for (const Vec2 film : {Vec2{12.0f, 8.0f}, Vec2{1.5f, 2.25f}, Vec2{20.0f, 15.0f}}) {
     const Ray middle = camera.generate_ray({film, kMiddle, kTime});
     double meeting = -1;
@@ -66,7 +65,7 @@ struct Spread {
   double solid_angle, area;
 };
 
-Spread spread_at(const Camera& camera, Vec2 film) {
+Spread spread_at(const CameraModel& camera, Vec2 film) {
   constexpr float kStep = 0.0625f;
   const auto difference = [&](Vec2 axis) {
     const Ray a = camera.generate_ray({{film.x + axis.x, film.y + axis.y}, kMiddle, kTime});
@@ -90,65 +89,58 @@ void for_film(F&& f) {
     for (float y = 0.7f; y < kHeight; y += 1.21f) f(Vec2{x, y});
 }
 
-// `axis`: where the camera looks; `up`: its vertical.
-void check_spread(const std::string& model, const ModelUse& use, const Camera& camera, Vec3 axis, Vec3 up,
-                  Worst& spread) {
+void check_spread(const CameraModel& camera, Worst& spread) {
   const auto film_text = [](Vec2 p) { return fmt::format("film ({}, {})", p.x, p.y); };
-  const Param* mapping = use.find("mapping");
-  if (model == "perspective" || model == "orthographic") {
+  if (camera.spread == FilmSpread::kFlat || camera.spread == FilmSpread::kParallel) {
     double constant = 0;
     for_film([&](Vec2 p) {
       const Spread s = spread_at(camera, p);
-      const double c = static_cast<double>(dot(camera.generate_ray({p, kMiddle, kTime}).d, axis));
+      const double c = static_cast<double>(dot(camera.generate_ray({p, kMiddle, kTime}).d, camera.axis));
       if (s.solid_angle > kLargestPixel || c < kSmallestCosine) return;
-      const double law = model == "perspective" ? s.solid_angle / (c * c * c) : s.area;
+      const double law = camera.spread == FilmSpread::kFlat ? s.solid_angle / (c * c * c) : s.area;
       if (constant == 0) constant = law;
       spread.add_relative(law, constant, [&] { return film_text(p); });
     });
-  } else if (model == "spherical") {
-    const bool latlong = mapping && mapping->strings[0] == "equirectangular";
-    constexpr double kPiD = 3.14159265358979323846;
-    for_film([&](Vec2 p) {
-      const Vec3 d = camera.generate_ray({p, kMiddle, kTime}).d;
-      const double sine = std::sqrt(std::max(1.0 - sqr(static_cast<double>(dot(d, up))), 0.0));
-      const double expected = latlong ? 2.0 * kPiD * kPiD * sine / (kWidth * kHeight) : 4.0 * kPiD / (kWidth * kHeight);
-      // The equal-area square is folded along its diagonals and middle lines.
-      const Vec2 st{std::abs(2.0f * p.x / kWidth - 1.0f), std::abs(2.0f * p.y / kHeight - 1.0f)};
-      if (!latlong && (std::abs(st.x + st.y - 1.0f) < 0.1f || std::min(st.x, st.y) < 0.1f)) return;
-      spread.add_relative(spread_at(camera, p).solid_angle, expected, [&] { return film_text(p); });
-    });
+    return;
   }
-}
-
-std::vector<CheckResult> check_camera(const std::string& name, const ModelUse& use, const BatteryOptions& options) {
-  Worst finite(name, "finite, unit directions", 0.0), same(name, "the same for the same sample", 0.0);
-  Worst focus(name, "rays of a film point meet", 2e-3), spread(name, "film to directions and area", 5e-3);
-  const Point3d eye{1.5, -2.0, 0.7}, to{0.4, 1.0, 0.2};
-  const Vec3d up{0.1, 0.2, 1.0};
-  SceneDescription d = bare_description();
-  d.camera = use;
-  const Transform view = Transform::look_at(eye, to, up).inverse();
-  d.camera_to_world = view;
-  const BareScene bare = compile_bare(d, kWidth, kHeight);
-  if (!bare.scene) return {{name, "is made from its declaration", false, 0.0, {}, bare.problem, nullptr}};
-  const Camera& camera = bare.scene->camera;
-  check_rays(camera, options.seed, finite, same);
-  check_focus(camera, focus);
-  const Vec3 axis = to_float(normalize(view.vector({0, 0, 1}))), vertical = to_float(normalize(view.vector({0, 1, 0})));
-  check_spread(use.model, use, camera, axis, vertical, spread);
-  return {finite.result(), same.result(), focus.result(), spread.result()};
+  const bool latlong = camera.spread == FilmSpread::kLatLong;
+  constexpr double kPiD = 3.14159265358979323846;
+  for_film([&](Vec2 p) {
+    const Vec3 d = camera.generate_ray({p, kMiddle, kTime}).d;
+    const double sine = std::sqrt(std::max(1.0 - sqr(static_cast<double>(dot(d, camera.up))), 0.0));
+    const double expected = latlong ? 2.0 * kPiD * kPiD * sine / (kWidth * kHeight) : 4.0 * kPiD / (kWidth * kHeight);
+    // The equal-area square is folded along its diagonals and middle lines.
+    const Vec2 st{std::abs(2.0f * p.x / kWidth - 1.0f), std::abs(2.0f * p.y / kHeight - 1.0f)};
+    if (!latlong && (std::abs(st.x + st.y - 1.0f) < 0.1f || std::min(st.x, st.y) < 0.1f)) return;
+    spread.add_relative(spread_at(camera, p).solid_angle, expected, [&] { return film_text(p); });
+  });
 }
 
 }  // namespace
 
+std::vector<CheckResult> check_camera(const CameraModel& camera, const BatteryOptions& options) {
+  const std::string& name = camera.name;
+  Worst finite(name, "finite, unit directions", 0.0), same(name, "the same for the same sample", 0.0);
+  Worst focus(name, "rays of a film point meet", 2e-3), spread(name, "film to directions and area", 5e-3);
+  check_rays(camera, options.seed, finite, same);
+  check_focus(camera, focus);
+  check_spread(camera, spread);
+  std::vector<CheckResult> results{finite.result(), same.result(), focus.result(), spread.result()};
+  for (CheckResult& r : check_importance(camera, options)) results.push_back(std::move(r));
+  judge(results, options.family_level);
+  return results;
+}
+
 std::vector<BatterySubject> camera_subjects() {
   std::vector<BatterySubject> subjects;
-  for (const ModelDecl* decl : models(Family::kCamera))
-    for (const ModelUse& use : parameter_grid(*decl)) {
-      const std::string name = setting_name(use);
-      subjects.push_back({"camera", decl->name, name,
-                          [name, use](const BatteryOptions& options) { return check_camera(name, use, options); }});
-    }
+  for (const CameraSetting& setting : camera_settings())
+    subjects.push_back({"camera", setting.use.model, setting.name, [setting](const BatteryOptions& options) {
+                          const MadeCamera made = camera_model(setting);
+                          if (!made.problem.empty())
+                            return std::vector<CheckResult>{
+                                {setting.name, "is made from its declaration", false, 0.0, {}, made.problem, nullptr}};
+                          return check_camera(made.model, options);
+                        }});
   return subjects;
 }
 

@@ -210,6 +210,21 @@ fault(quadric-stretch "sampling a stretched quadric leaves out how its area stre
 edit(shapes/quadric.h [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
      [[return 1.0f / (quadric.part.area() * (FAULT ? 1.0f : quadric_area_stretch(quadric, q)));]])
 
+# ---- cameras
+
+set(cameras "CameraBattery.*")
+fault(importance-with-cos-cubed "the importance of a perspective camera lacks the lens's cosine" "${cameras}")
+edit(cameras/perspective.cpp [[i.cosine = static_cast<float>(]] [[i.cosine = FAULT ? 1.0f : static_cast<float>(]])
+
+fault(lens-without-area "the density on a lens is that on the unit lens" "${cameras}")
+edit(cameras/lens.cpp [[/ static_cast<float>(area);]] [[/ static_cast<float>(FAULT ? 1.0 : area);]])
+
+fault(points-behind-the-camera "a camera connects to points behind it" "${cameras}")
+edit(cameras/perspective.cpp [[&& depth > 0.0)) return {};]] [[&& (FAULT || depth > 0.0))) return {};]])
+
+fault(panorama-without-sine "the importance of a lat-long panorama takes all its rows to be as wide" "${cameras}")
+edit(cameras/spherical.cpp [[kPi * std::hypot(local.x, local.z);]] [[kPi * (FAULT ? 1.0f : std::hypot(local.x, local.z));]])
+
 # ---- motion
 
 closed_forms(tests motion_edge motion_edge_camera)
