@@ -25,6 +25,7 @@ const char* const kMoving = "perspective(moving)";
 const char* const kStar = "perspective(lensradius 0.4, focaldistance 2.5, aperture star)";
 const char* const kGaussian = "perspective(lensradius 0.4, focaldistance 2.5, aperture gaussian)";
 const char* const kParallelLens = "orthographic(lensradius 0.4, focaldistance 2.5, aperture pentagon)";
+const char* const kStretched = "orthographic(lensradius 0.4, focaldistance 2.5, blades 3, bladerotation 20), stretched";
 const char* const kMirrored = "perspective(screenwindow 0.75 -0.5 -0.25 0.75)";
 
 // In half of 10^6 runs none of a model's checks fails without a fault.
@@ -141,10 +142,10 @@ TEST(CameraBatteryFaults, ImportanceWithoutTheOpeningsShape) {
 }
 
 TEST(CameraBatteryFaults, DensityTwoPercentOff) {
-  for (const char* name : {kPinhole, kStar, kSphere, "spherical", kMoving})
+  for (const char* name : {kPinhole, kStar, kSphere, "spherical", kMoving, "spherical(stretched)"})
     expect_caught(with_importance(model(name), [](CameraImportance& i) { i.pdf_direction *= 1.02f; }),
                   "importance = density", "2 %");
-  for (const char* name : {kParallel, kParallelLens})
+  for (const char* name : {kParallel, kParallelLens, kStretched})
     expect_caught(with_importance(model(name), [](CameraImportance& i) { i.pdf_position *= 1.02f; }),
                   "importance = density", "2 %");
 }

@@ -103,6 +103,7 @@ void check_spread(const CameraModel& camera, Worst& spread) {
     });
     return;
   }
+  if (camera.spread == FilmSpread::kOther) return;
   const bool latlong = camera.spread == FilmSpread::kLatLong;
   constexpr double kPiD = 3.14159265358979323846;
   for_film([&](Vec2 p) {

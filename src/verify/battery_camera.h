@@ -13,8 +13,9 @@
 namespace etd {
 
 // How a camera spreads its film: solid angle per pixel in proportion to cos^3 of the angle to its axis; equal area
-// across parallel rays; equal solid angles; solid angles in proportion to the sine of the angle to up.
-enum class FilmSpread { kFlat, kParallel, kEqualArea, kLatLong };
+// across parallel rays; equal solid angles; solid angles in proportion to the sine of the angle to up;
+// none of these.
+enum class FilmSpread { kFlat, kParallel, kEqualArea, kLatLong, kOther };
 
 // A parallelogram, from its corner.
 struct Window {

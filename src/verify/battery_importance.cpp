@@ -64,8 +64,8 @@ bool are_derivatives(const CameraModel& m, const CameraSample& s, const FilmStep
   if (m.spread == FilmSpread::kParallel) return true;
   if (steps.solid_angle > 0.04 || steps.angle < 1e-3) return false;
   const Vec2 st{std::abs(2.0f * s.film.x / kWidth - 1.0f), std::abs(2.0f * s.film.y / kHeight - 1.0f)};
-  if (m.spread == FilmSpread::kLatLong) return st.y < 0.9f;
-  return m.spread != FilmSpread::kEqualArea || (std::abs(st.x + st.y - 1.0f) > 0.1f && std::min(st.x, st.y) > 0.1f);
+  if (m.spread != FilmSpread::kEqualArea) return m.spread == FilmSpread::kFlat || st.y < 0.9f;
+  return std::abs(st.x + st.y - 1.0f) > 0.1f && std::min(st.x, st.y) > 0.1f;
 }
 
 void check_rays_back(const CameraModel& m, uint64_t seed, WrongShare& film, WrongShare& density) {

@@ -36,9 +36,11 @@ double number_of(const ModelUse& use, const std::string& name) {
   return 0.0;
 }
 
-FilmSpread spread_of(const ModelUse& use) {
+FilmSpread spread_of(const CameraSetting& setting) {
+  const ModelUse& use = setting.use;
   if (use.model == "perspective") return FilmSpread::kFlat;
   if (use.model == "orthographic") return FilmSpread::kParallel;
+  if (setting.stretched) return FilmSpread::kOther;
   const Param* mapping = use.find("mapping");
   return mapping && mapping->strings[0] == "equirectangular" ? FilmSpread::kLatLong : FilmSpread::kEqualArea;
 }
@@ -59,30 +61,39 @@ Window window_of_origins(const Camera& camera, const TransformPath& to_world, Ve
   return {{corner.x, corner.y, 0}, {1.2 * size.x, 0, 0}, {0, 1.2 * size.y, 0}};
 }
 
+// Openings that the grid of parameters does not reach, mirrored films, and a stretched space.
+std::vector<CameraSetting> lens_settings(const std::string& model) {
+  std::vector<CameraSetting> settings;
+  const auto add = [&](const std::vector<Param>& params, std::vector<Param> more, bool stretched) {
+    more.insert(more.begin(), params.begin(), params.end());
+    const ModelUse use{model, std::move(more), {}};
+    settings.push_back({setting_name(use) + (stretched ? ", stretched" : ""), use, stretched, stretched});
+  };
+  const std::vector<Param> lens{number("lensradius", {0.4}), number("focaldistance", {2.5})};
+  const std::vector<Param> mirrored{number("screenwindow", {0.75, -0.5, -0.25, 0.75})};
+  for (const char* shape : {"gaussian", "square", "pentagon", "star"}) add(lens, {text("aperture", shape)}, false);
+  Param blades;
+  blades.name = "blades";
+  blades.kind = ParamKind::kInteger;
+  blades.integers = {3};
+  add(lens, {blades, number("bladerotation", {20})}, true);
+  add(mirrored, {}, false);
+  add(mirrored, lens, false);
+  return settings;
+}
+
 }  // namespace
 
 std::vector<CameraSetting> camera_settings() {
   std::vector<CameraSetting> settings;
   for (const ModelDecl* decl : models(Family::kCamera)) {
+    const std::string& model = decl->name;
     for (const ModelUse& use : parameter_grid(*decl)) settings.push_back({setting_name(use), use});
-    settings.push_back({decl->name + "(moving)", {decl->name, {}, {}}, true});
-  }
-  const std::vector<Param> lens{number("lensradius", {0.4}), number("focaldistance", {2.5})};
-  const std::vector<Param> mirrored{number("screenwindow", {0.75, -0.5, -0.25, 0.75})};
-  for (const char* model : {"perspective", "orthographic"}) {
-    const auto add = [&](std::vector<Param> params, std::vector<Param> more, bool moves) {
-      params.insert(params.end(), more.begin(), more.end());
-      const ModelUse use{model, std::move(params), {}};
-      settings.push_back({setting_name(use) + (moves ? ", moving" : ""), use, moves});
-    };
-    for (const char* shape : {"gaussian", "square", "pentagon", "star"}) add(lens, {text("aperture", shape)}, false);
-    Param blades;
-    blades.name = "blades";
-    blades.kind = ParamKind::kInteger;
-    blades.integers = {3};
-    add(lens, {blades, number("bladerotation", {20})}, true);
-    add(mirrored, {}, false);
-    add(mirrored, lens, false);
+    settings.push_back({model + "(moving)", {model, {}, {}}, true});
+    if (model == "spherical")
+      settings.push_back({model + "(stretched)", {model, {text("mapping", "equirectangular")}, {}}, true, true});
+    else
+      for (CameraSetting& setting : lens_settings(model)) settings.push_back(std::move(setting));
   }
   return settings;
 }
@@ -93,17 +104,19 @@ MadeCamera camera_model(const CameraSetting& setting) {
   SceneDescription d = bare_description();
   d.camera = use;
   d.camera_to_world = view;
+  const Transform shape =
+      setting.stretched ? Transform::scale({1.4, 0.7, 1.2}) * Transform::rotate(30, {0, 0, 1}) : Transform();
   // In the middle of its time a moving camera looks to where the others look, up to a shift.
   if (setting.moves)
-    d.camera_to_world = {view * Transform::rotate(-8, {0, 1, 0}) * Transform::translate({-0.2, 0, 0}),
-                         view * Transform::rotate(8, {0, 1, 0}) * Transform::translate({0.2, 0.1, 0})};
+    d.camera_to_world = {view * Transform::rotate(-8, {0, 1, 0}) * Transform::translate({-0.2, 0, 0}) * shape,
+                         view * Transform::rotate(8, {0, 1, 0}) * Transform::translate({0.2, 0.1, 0}) * shape};
   const BareScene bare = compile_bare(d, CameraModel::kFilmWidth, CameraModel::kFilmHeight);
   if (!bare.scene) return {{}, bare.problem};
   const std::shared_ptr<const Scene> scene = bare.scene;
   const TransformPath to_world = TransformPath().then(d.camera_to_world);
   CameraModel m;
   m.name = setting.name;
-  m.spread = spread_of(use);
+  m.spread = spread_of(setting);
   m.eye = to_float(view.point({0, 0, 0}) - scene->origin);
   m.axis = to_float(normalize(view.vector({0, 0, 1})));
   m.up = to_float(normalize(view.vector({0, 1, 0})));

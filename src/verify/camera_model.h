@@ -9,7 +9,8 @@ namespace etd {
 struct CameraSetting {
   std::string name;
   ModelUse use;
-  bool moves = false;  // turns and shifts while the shutter is open
+  bool moves = false;      // turns and shifts while the shutter is open
+  bool stretched = false;  // its space is stretched, and skewed across the axis
 };
 std::vector<CameraSetting> camera_settings();
 
