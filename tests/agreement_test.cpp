@@ -30,13 +30,13 @@ struct Scene {
   uint32_t spp_naive, spp_next_event, spp_mis;
   uint32_t spp_heuristics = 0, spp_uniform = 0;  // of the other heuristics and of lights all alike; 0: not compared
 };
-const Scene kScenes[] = {{"conductor_box", 1024, 512, 256, 256, 0},
-                         {"textured_room", 1024, 256, 256, 0, 256},
-                         {"sky_instances", 512, 512, 128, 256, 256},
-                         {"glass_caustic", 1024, 512, 512, 0, 0},
-                         {"lamps", 2048, 1024, 1024, 0, 1024},
-                         {"moving_lamps", 1024, 1024, 1024},
-                         {"window_room", 2048, 384, 384}};
+const Scene kScenes[] = {{"conductor_box", 320, 128, 128, 128, 0},
+                         {"textured_room", 512, 128, 128, 0, 128},
+                         {"sky_instances", 448, 384, 128, 192, 128},
+                         {"glass_caustic", 512, 256, 256, 0, 0},
+                         {"lamps", 1024, 512, 512, 0, 512},
+                         {"moving_lamps", 640, 896, 640},
+                         {"window_room", 1024, 320, 320}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {

@@ -11,9 +11,12 @@
 namespace etd {
 namespace {
 
-// One false alarm in 10^4 runs of the whole battery.
+// One false alarm in 10^4 runs of the whole battery. Because of the second run, three quarters of the usual samples
+// find as much in the first as all would find alone: a chi-square statistic of 256 cells in 54 settings, corrected for
+// all checks, must be 3.6e-6 unlikely instead of 5e-9, so that a non-centrality of 134 is found in 9 of 10 cases
+// instead of one of 175.
 BatteryOptions options_of_seed(uint64_t seed) {
-  return {kSlowBuild ? 0.1 : 1.0, seed, 1e-4 / static_cast<double>(bsdf_examples().size())};
+  return {kSlowBuild ? 0.1 : 0.75, seed, 1e-4 / static_cast<double>(bsdf_examples().size())};
 }
 
 class BsdfBattery : public testing::TestWithParam<size_t> {};

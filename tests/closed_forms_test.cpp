@@ -129,7 +129,7 @@ TEST(SlowClosedForms, PValuesOfRightAnswersAreUniform) {
   for (const Case& c : cases()) {
     const SceneAnswer& answer = c.scene->answers.front();
     for (uint64_t i = 0; i < kSeeds; ++i) {
-      const RunningStats stats = measure(render_case(c, ++seed, std::max(c.spp / 32, kReplicates)), answer);
+      const RunningStats stats = measure(render_case(c, ++seed, std::max(c.spp / 12, kReplicates)), answer);
       if (stats.variance_of_mean() <= sqr(answer.value * kRounding)) break;  // nothing random about this case
       const double p = t_test(stats, answer.value).p_value;
       ++observed[std::min(static_cast<size_t>(p * kBins), kBins - 1)];
