@@ -31,7 +31,7 @@ const char* const kMirrored = "perspective(screenwindow 0.75 -0.5 -0.25 0.75)";
 // In half of 10^6 runs none of a model's checks fails without a fault.
 std::set<std::string> failures(const CameraModel& m) {
   std::set<std::string> names;
-  for (const CheckResult& r : check_camera(m, {kSlowBuild ? 0.1 : 0.4, 1, 1e-6}))
+  for (const CheckResult& r : check_camera(m, {kSlowBuild ? 0.2 : 0.4, 1, 1e-6}))
     if (!r.passed) names.insert(r.name);
   return names;
 }
