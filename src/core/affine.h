@@ -24,4 +24,11 @@ struct Affine {
   Vec3 transposed(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 
+inline double determinant(const Affine& a) { return dot(to_double(a.x), cross(to_double(a.y), to_double(a.z))); }
+
+// How much area one unit of area with the unit normal n covers under the map: |det M| |M^-T n|.
+inline float area_stretch(const Affine& map, const Affine& inverse, Vec3 n) {
+  return static_cast<float>(std::abs(determinant(map))) * length(inverse.transposed(n));
+}
+
 }  // namespace etd

@@ -26,4 +26,10 @@ struct Bounds3 {
   Point3d center() const { return lo + (hi - lo) * 0.5; }
 };
 
+// A ball with everything that rays can meet inside of it.
+struct BoundingSphere {
+  Point3 center;
+  float radius = 0;
+};
+
 }  // namespace etd

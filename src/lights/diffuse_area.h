@@ -1,10 +1,13 @@
 // Surfaces that emit to all directions alike, from one side or both.
 #pragma once
 
+#include "core/frame.h"
+#include "core/warp.h"
 #include "lights/area_emission.h"
 #include "lights/light.h"
 #include "lights/light_params.h"
 #include "lights/light_surfaces.h"
+#include "shapes/placement.h"
 #include "textures/resolve.h"
 
 namespace etd {
@@ -80,9 +83,45 @@ struct DiffuseAreaLight {
     return std::isfinite(pdf) ? pdf : 0.0f;
   }
 
+  // Uniform over the area in the light's own space, and as the cosine around the normal in the world, on either side
+  // with the same probability if both emit. `at`: where that space is, null when it is the world.
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere&,
+                                          const Placement* at) const {
+    EmissionSample s;
+    s.on_light = surface.sample(u_position, s.pdf_position);
+    if (at) {
+      s.pdf_position /= area_stretch(at->to_world, at->to_object, s.on_light.ng);
+      s.on_light = to_world(s.on_light, *at);
+    }
+    const bool back = emission.two_sided && u_direction.x >= 0.5f;
+    if (emission.two_sided) u_direction.x = 2.0f * u_direction.x - (back ? 1.0f : 0.0f);
+    const Vec3 n = back ? -s.on_light.ng : s.on_light.ng;
+    const Vec3 w = normalize(Frame::from_z(n).to_world(sample_hemisphere_cosine(u_direction)));
+    s.cosine = dot(n, w);
+    s.pdf_direction = pdf_emitted(s.on_light, w);
+    s.radiance = emission.towards(s.on_light, w);
+    s.ray = {offset_origin(s.on_light, w), w};
+    const float pdf = s.pdf_position * s.pdf_direction;
+    if (is_black(s.radiance) || !(pdf > 0.0f) || !std::isfinite(pdf)) return {};
+    return s;
+  }
+
+  EmissionDensity pdf_le(const SurfacePoint* s, Vec3 w, Point3, const Placement* at) const {
+    const float direction = pdf_emitted(*s, w);
+    if (!at) return {surface.pdf_area(*s), direction};
+    const SurfacePoint own = to_object(*s, *at);
+    return {surface.pdf_area(own) / area_stretch(at->to_world, at->to_object, own.ng), direction};
+  }
+
   Spectrum power() const { return mean * (kPi * surface.area() * (emission.two_sided ? 2.0f : 1.0f)); }
 
  private:
+  // Density per solid angle of emitted directions.
+  float pdf_emitted(const SurfacePoint& s, Vec3 w) const {
+    const float cosine = dot(s.ng, w);
+    return emission.two_sided ? 0.5f * pdf_hemisphere_cosine(std::abs(cosine)) : pdf_hemisphere_cosine(cosine);
+  }
+
   // Density per area to density per solid angle: times d^2 / |cos|.
   static float to_solid_angle(float pdf_area, float distance2, float cosine) {
     return pdf_area * distance2 / std::abs(cosine);

@@ -76,20 +76,18 @@ LightExample portal(std::string name, int width, int height) {
   return example;
 }
 
-LightExample goniometric() {
+LightExample goniometric(std::string name) {
   auto data = std::make_shared<LightData>();
   const EnvironmentMap& map = data->environments.emplace_back(uneven_image(4, 4));
   const GoniometricIntensity intensity{Spectrum::rgb(1.0f, 2.0f, 3.0f), &map, turned()};
-  return {"goniometric", Light(PointLight<GoniometricIntensity>{{-0.4f, 0.6f, 0.1f}, intensity}), nullptr, nullptr,
+  return {std::move(name), Light(PointLight<GoniometricIntensity>{{-0.4f, 0.6f, 0.1f}, intensity}), nullptr, nullptr,
           data};
 }
 
 LightExample projection() {
   auto data = std::make_shared<LightData>();
-  ProjectionIntensity intensity;
-  intensity.image = &data->images.emplace_back(uneven_image(6, 3));
-  intensity.axes = turned();
-  intensity.half_x = 1.6f, intensity.half_y = 0.8f, intensity.scale = 2.0f;
+  ProjectionIntensity intensity = ProjectionIntensity::of(uneven_image(6, 3), turned(), 1.6f, 0.8f, *data);
+  intensity.scale = 2.0f;
   return {"projection", Light(PointLight<ProjectionIntensity>{{0.5f, 0.2f, -0.3f}, intensity}), nullptr, nullptr, data};
 }
 
@@ -125,7 +123,55 @@ LightExample textured_ball() {
   return {"diffuse(sphere, image)", Light(light), nullptr, q, data};
 }
 
-std::vector<LightExample> make_examples() {
+// In a space that is the world at time 0 and goes to `end`.
+LightExample moving(LightExample example, const Transform& end, float time) {
+  const TransformPath path = TransformPath().then(TransformPair(Transform(), end));
+  example.motion = std::make_shared<const AnimatedTransform>(path, Vec3d{}, 2.0);
+  example.light = example.light.moving(*example.motion);
+  example.time = time;
+  return example;
+}
+
+// The same of a light that changes its size: `make` gives it as it is under a transform.
+template <class F>
+LightExample growing(F make, const Transform& end, float time) {
+  LightExample example = moving(make(Transform()), end, time);
+  example.power_then = make(example.motion->at(time)).light.power();
+  return example;
+}
+
+// Lights that move: under a stretch that is not the same everywhere of them, and as large balls are blown up.
+std::vector<LightExample> moving_examples() {
+  const Transform turn = Transform::translate({0.3, 0.2, -0.2}) * Transform::rotate(100, {1, -1, 2});
+  const Transform stretch = turn * Transform::scale({1.6, 0.6, 1.2}), growth = turn * Transform::scale({2, 2, 2});
+  const Point3d three[3] = {{-1.0, -0.8, 0.1}, {1.2, -0.5, -0.1}, {0.1, 1.1, 0.2}};
+  const Point3d four[4] = {{-0.6, -0.9, 0.4}, {0.8, -0.7, -0.5}, {-0.9, 0.5, -0.4}, {0.7, 0.6, 0.7}};
+  const auto at = [](const Transform& t, Point3d p) { return to_float(t.point(p)); };
+  return {
+      growing(
+          [&](const Transform& t) {
+            const Point3 p[3] = {at(t, three[0]), at(t, three[1]), at(t, three[2])};
+            return triangle("diffuse(triangle, two-sided, stretching)", true, false, p);
+          },
+          stretch, 0.7f),
+      growing(
+          [&](const Transform& t) {
+            return patch("diffuse(twisted patch, stretching)", false,
+                         {at(t, four[0]), at(t, four[1]), at(t, four[2]), at(t, four[3])});
+          },
+          stretch, 0.4f),
+      growing(
+          [&](const Transform& t) {
+            return quadric("diffuse(sphere, growing)", false, false, t * Transform::scale({0.5, 0.5, 0.5}));
+          },
+          growth, 0.6f),
+      moving(sky("infinite(latitude-longitude image, turning)", 12, 6, LightSampling::kComplete),
+             Transform::rotate(100, {1, -1, 2}), 0.7f),
+      moving(goniometric("goniometric(turning)"), turn, 0.3f),
+  };
+}
+
+std::vector<LightExample> still_examples() {
   const Transform half = Transform::scale({0.5, 0.5, 0.5});
   const Transform egg =
       Transform::translate({0.1, -0.2, 0.1}) * Transform::rotate(40, {1, 2, 3}) * Transform::scale({0.4, 0.9, -0.6});
@@ -169,7 +215,7 @@ std::vector<LightExample> make_examples() {
       spot("spot", 0.8f, 0.6f),
       spot("spot(hard edge)", 0.7f, 0.7f),
       spot("spot(wide)", 0.2f, -0.9f),
-      goniometric(),
+      goniometric("goniometric"),
       projection(),
   };
 }
@@ -177,7 +223,11 @@ std::vector<LightExample> make_examples() {
 }  // namespace
 
 std::span<const LightExample> light_examples() {
-  static const std::vector<LightExample> examples = make_examples();
+  static const std::vector<LightExample> examples = [] {
+    std::vector<LightExample> all = still_examples();
+    for (LightExample& e : moving_examples()) all.push_back(std::move(e));
+    return all;
+  }();
   return examples;
 }
 

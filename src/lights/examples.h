@@ -24,6 +24,11 @@ struct LightExample {
   LightSampling sampling = LightSampling::kComplete;
   std::shared_ptr<const PatchMesh> patches = {};
   bool through_portal = false;  // an infinite light behind a portal that is at most 3 away: its power is what comes in
+  // How the light and its surface move, at which time they are tested, and the light's power at that time where it is
+  // not the mean that power() tells.
+  std::shared_ptr<const AnimatedTransform> motion = {};
+  float time = 0;
+  std::optional<Spectrum> power_then = {};
 };
 
 // The same list at every call, in a fixed order.

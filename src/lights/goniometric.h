@@ -37,6 +37,11 @@ struct GoniometricIntensity {
   }
 
   Spectrum intensity(Vec3 w) const { return value * mean_value(map->value(axes.to_local(w))); }
+  std::optional<Vec3> sample(Vec2 u) const {
+    const std::optional<Vec3> w = map->sample(u, LightSampling::kComplete);
+    return w ? std::optional(normalize(axes.to_world(*w))) : std::nullopt;
+  }
+  float pdf(Vec3 w) const { return map->pdf(axes.to_local(w), LightSampling::kComplete); }
   Spectrum power() const { return value * mean_value(map->integral()); }
 };
 

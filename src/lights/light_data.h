@@ -13,6 +13,7 @@ struct LightData {
   std::deque<EnvironmentMap> environments;
   std::deque<PortalMap> portals;
   std::deque<Image> images;
+  std::deque<GridDistribution> grids;
   std::deque<AnimatedTransform> motions;
 
   size_t bytes() const {
@@ -20,6 +21,7 @@ struct LightData {
     for (const EnvironmentMap& map : environments) sum += map.bytes();
     for (const PortalMap& portal : portals) sum += portal.bytes();
     for (const Image& image : images) sum += image.bytes();
+    for (const GridDistribution& grid : grids) sum += grid.bytes();
     return sum;
   }
 };

@@ -13,14 +13,6 @@ float solid_angle_stretch(const Placement& at, Vec3 w) {
   return std::abs(dot(m.x, cross(m.y, m.z))) / (dot(v, v) * length(v));
 }
 
-// What lights read of a surface point.
-SurfacePoint to_object(const SurfacePoint& s, const Placement& at) {
-  SurfacePoint o = s;
-  o.p = at.to_object.point(s.p);
-  o.ng = o.ns = normalize(at.to_world.transposed(s.ng));
-  return o;
-}
-
 }  // namespace
 
 Light Light::moving(const AnimatedTransform& motion) const {

@@ -1,6 +1,7 @@
 // The same intensity in all directions from one point.
 #pragma once
 
+#include "core/warp.h"
 #include "lights/point_lights.h"
 #include "textures/resolve.h"
 
@@ -23,6 +24,8 @@ struct IsotropicIntensity {
   }
 
   Spectrum intensity(Vec3) const { return value; }
+  std::optional<Vec3> sample(Vec2 u) const { return sample_sphere_uniform(u); }
+  float pdf(Vec3) const { return pdf_sphere_uniform(); }
   Spectrum power() const { return value * (4.0f * kPi); }
 };
 

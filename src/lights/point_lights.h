@@ -4,10 +4,12 @@
 
 #include "lights/light.h"
 #include "lights/light_params.h"
+#include "shapes/placement.h"
 
 namespace etd {
 
-// Intensity: Spectrum intensity(Vec3 w) in W/sr along the unit direction w in the world, Spectrum power() in W.
+// Intensity: Spectrum intensity(Vec3 w) in W/sr along the unit direction w in the world, Spectrum power() in W;
+// std::optional<Vec3> sample(Vec2 u), a unit direction or nothing of a black light, and float pdf(Vec3 w), its density.
 template <class Intensity>
 struct PointLight {
   Point3 position;
@@ -33,7 +35,30 @@ struct PointLight {
   }
   float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
   Spectrum emitted(const SurfacePoint*, Vec3) const { return Spectrum(); }
+  // `at`: where the light's own space is, null when it is the world.
+  std::optional<EmissionSample> sample_le(Vec2, Vec2 u_direction, const BoundingSphere&, const Placement* at) const {
+    const std::optional<Vec3> own = emission.sample(u_direction);
+    if (!own) return {};
+    EmissionSample s;
+    s.on_light.p = position;
+    s.on_light.ng = s.on_light.ns = *own;
+    if (at) s.on_light = to_world(s.on_light, *at);
+    s.ray = {s.on_light.p, s.on_light.ng};
+    // Value and density are looked up for the direction as it was rounded.
+    const Vec3 rounded = to_own(s.ray.d, at);
+    s.radiance = emission.intensity(rounded);
+    s.pdf_position = 1.0f;
+    s.pdf_direction = emission.pdf(rounded);
+    if (is_black(s.radiance) || !(s.pdf_direction > 0.0f) || !std::isfinite(s.pdf_direction)) return {};
+    return s;
+  }
+  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, Point3, const Placement* at) const {
+    return {1.0f, emission.pdf(to_own(w, at))};
+  }
   Spectrum power() const { return emission.power(); }
+
+ private:
+  static Vec3 to_own(Vec3 w, const Placement* at) { return at ? normalize(at->to_object.vector(w)) : w; }
 };
 
 inline ParamDecl intensity_param() {

@@ -4,6 +4,7 @@
 
 #include "lights/infinite.h"
 #include "lights/light_data.h"
+#include "shapes/placement.h"
 
 namespace etd {
 
@@ -29,8 +30,36 @@ struct PortalInfiniteLight {
   }
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint*, LightSampling) const { return map->pdf(p, wi); }
   Spectrum emitted(const SurfacePoint*, Vec3 w, Point3 seen_from) const { return map->value(seen_from, -w) * scale; }
+  // Uniform over the portal, and in directions in proportion to the mean of R, G and B. A portal does not move.
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere& scene,
+                                          const Placement*) const {
+    const std::optional<Vec3> from = map->sample(u_direction);
+    if (!from) return {};
+    const Portal& portal = map->portal();
+    const Point3 p =
+        portal.corner + portal.frame.to_world({u_position.x * portal.width, u_position.y * portal.height, 0.0f});
+    // Back to where the scene starts, if that is before the portal.
+    const float back = std::max(0.0f, scene.radius - dot(p - scene.center, *from));
+    EmissionSample s;
+    s.ray = {p + *from * back, -*from};
+    s.on_light.p = p;
+    s.on_light.ng = s.on_light.ns = -portal.frame.z;
+    s.radiance = map->value(*from) * scale;
+    s.pdf_position = pdf_position();
+    s.pdf_direction = map->pdf(*from);
+    s.cosine = dot(*from, portal.frame.z);
+    if (is_black(s.radiance) || !(s.cosine > 0.0f && s.pdf_direction > 0.0f) || !std::isfinite(s.pdf_direction))
+      return {};
+    return s;
+  }
+  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, Point3 seen_from, const Placement*) const {
+    return {map->is_open(seen_from, -w) ? pdf_position() : 0.0f, map->pdf(-w)};
+  }
   // What comes in through the portal.
   Spectrum power() const { return map->flux() * scale; }
+
+ private:
+  float pdf_position() const { return 1.0f / (map->portal().width * map->portal().height); }
 };
 
 }  // namespace etd

@@ -58,24 +58,33 @@ std::optional<PortalMap::Window> PortalMap::window(Point3 p) const {
   return Window{angles(corner), angles({corner.x + portal_.width, corner.y + portal_.height, corner.z})};
 }
 
-Spectrum PortalMap::value(Point3 p, Vec3 w) const {
+bool PortalMap::is_open(Point3 p, Vec3 w) const {
   const Vec3d local = to_local(w);
   const auto seen = window(p);
-  if (!seen || !(local.z > 0.0) || !seen->contains(angles(local))) return Spectrum();
-  return map_->value(axes_.to_local(w));
+  return seen && local.z > 0.0 && seen->contains(angles(local));
 }
+
+Spectrum PortalMap::value(Point3 p, Vec3 w) const { return is_open(p, w) ? value(w) : Spectrum(); }
 
 std::optional<Vec3> PortalMap::sample(Point3 p, Vec2 u) const {
   const auto seen = window(p);
-  if (!seen || !(distribution_.integral(*seen) > 0.0)) return {};
-  return normalize(portal_.frame.to_world(to_float(direction(distribution_.sample(u, *seen)))));
+  return seen ? sample_within(*seen, u) : std::nullopt;
 }
 
 float PortalMap::pdf(Point3 p, Vec3 w) const {
-  const Vec3d local = to_local(w);
   const auto seen = window(p);
-  if (!seen || !(local.z > 0.0)) return 0.0f;
-  return static_cast<float>(distribution_.pdf(angles(local), *seen) / solid_angle_factor(local));
+  return seen ? pdf_within(*seen, w) : 0.0f;
+}
+
+std::optional<Vec3> PortalMap::sample_within(const Window& window, Vec2 u) const {
+  if (!(distribution_.integral(window) > 0.0)) return {};
+  return normalize(portal_.frame.to_world(to_float(direction(distribution_.sample(u, window)))));
+}
+
+float PortalMap::pdf_within(const Window& window, Vec3 w) const {
+  const Vec3d local = to_local(w);
+  if (!(local.z > 0.0)) return 0.0f;
+  return static_cast<float>(distribution_.pdf(angles(local), window) / solid_angle_factor(local));
 }
 
 }  // namespace etd

@@ -23,10 +23,18 @@ class PortalMap {
 
   // The map's value in the unit direction w as seen from p: black beside the portal, and everywhere behind it.
   Spectrum value(Point3 p, Vec3 w) const;
+  // The map's value in the unit direction w, whatever is in the way.
+  Spectrum value(Vec3 w) const { return map_->value(axes_.to_local(w)); }
+  // Whether p sees through the portal in the direction w.
+  bool is_open(Point3 p, Vec3 w) const;
   // A direction from p through the portal, in proportion to the mean of R, G and B; nothing from behind.
   std::optional<Vec3> sample(Point3 p, Vec2 u) const;
   // Density of sample() at the unit direction w, per solid angle.
   float pdf(Point3 p, Vec3 w) const;
+  // The same from a point within the portal, which sees half of all directions.
+  std::optional<Vec3> sample(Vec2 u) const { return sample_within(kAll, u); }
+  float pdf(Vec3 w) const { return pdf_within(kAll, w); }
+  const Portal& portal() const { return portal_; }
   // The flux that comes in through the portal, area times solid angle times the unit of the values.
   Spectrum flux() const { return flux_; }
   size_t bytes() const { return distribution_.bytes(); }
@@ -34,7 +42,10 @@ class PortalMap {
  private:
   using Window = WindowedDistribution::Window;
   using Point = WindowedDistribution::Point;
+  static constexpr Window kAll{{0, 0}, {1, 1}};
   std::optional<Window> window(Point3 p) const;
+  std::optional<Vec3> sample_within(const Window& window, Vec2 u) const;
+  float pdf_within(const Window& window, Vec3 w) const;
   // Angles of the local direction w with w.z > 0 around y and x, from 0 to 1 over half a turn; and back.
   static Point angles(Vec3d w);
   static Vec3d direction(Point at);

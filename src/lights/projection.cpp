@@ -17,14 +17,28 @@ std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const
   const bool flat = !(p.number("fov") < 180.0);
   if (flat) p.diagnostics().error(p.given("fov")->value_loc, "the field of view must be below 180 degrees");
   if (!axes || !image || flat) return {};
-  ProjectionIntensity light;
-  light.image = &context.data.images.emplace_back(std::move(*image));
-  light.axes = *axes;
-  const double aspect = static_cast<double>(light.image->width()) / light.image->height();
-  light.half_x = static_cast<float>(half * std::max(1.0, aspect));
-  light.half_y = static_cast<float>(half * std::max(1.0, 1.0 / aspect));
+  const double aspect = static_cast<double>(image->width()) / image->height();
+  const auto half_x = static_cast<float>(half * std::max(1.0, aspect));
+  const auto half_y = static_cast<float>(half * std::max(1.0, 1.0 / aspect));
+  ProjectionIntensity light = of(std::move(*image), *axes, half_x, half_y, context.data);
   light.scale = emission_scale(p, "power", light.power());
   return PointLight<ProjectionIntensity>{light_position(p, context), light};
+}
+
+ProjectionIntensity ProjectionIntensity::of(Image image, const Frame& axes, float half_x, float half_y,
+                                            LightData& data) {
+  ProjectionIntensity light;
+  light.image = &data.images.emplace_back(std::move(image));
+  light.axes = axes;
+  light.half_x = half_x;
+  light.half_y = half_y;
+  const int width = light.image->width(), height = light.image->height();
+  std::vector<double> weights;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      weights.push_back(static_cast<double>(mean_value(light.texel(x, y))) * light.solid_angle(x, y));
+  light.texels = &data.grids.emplace_back(width, height, weights);
+  return light;
 }
 
 Spectrum ProjectionIntensity::texel(int x, int y) const {
@@ -32,27 +46,51 @@ Spectrum ProjectionIntensity::texel(int x, int y) const {
   return Spectrum::rgb(channel(0), channel(1), channel(2)) * scale;
 }
 
-Spectrum ProjectionIntensity::intensity(Vec3 w) const {
-  const Vec3 v = axes.to_local(w);
-  if (!(v.z > 0.0f)) return Spectrum();
+std::optional<ProjectionIntensity::Cell> ProjectionIntensity::cell_of(Vec3 v) const {
+  if (!(v.z > 0.0f)) return {};
   const float s = 0.5f + 0.5f * v.x / (v.z * half_x), t = 0.5f - 0.5f * v.y / (v.z * half_y);
-  if (!(s >= 0.0f && s < 1.0f && t >= 0.0f && t < 1.0f)) return Spectrum();
+  if (!(s >= 0.0f && s < 1.0f && t >= 0.0f && t < 1.0f)) return {};
   const int width = image->width(), height = image->height();
-  return texel(std::min(static_cast<int>(s * static_cast<float>(width)), width - 1),
-               std::min(static_cast<int>(t * static_cast<float>(height)), height - 1));
+  return Cell{std::min(static_cast<int>(s * static_cast<float>(width)), width - 1),
+              std::min(static_cast<int>(t * static_cast<float>(height)), height - 1)};
+}
+
+Spectrum ProjectionIntensity::intensity(Vec3 w) const {
+  const auto cell = cell_of(axes.to_local(w));
+  return cell ? texel(cell->x, cell->y) : Spectrum();
+}
+
+// Uniform over the image within a texel: times W H / (4 half_x half_y) per area at z = 1, of which a solid angle
+// dw covers dw / cos^3.
+std::optional<Vec3> ProjectionIntensity::sample(Vec2 u) const {
+  if (!texels->any()) return {};
+  const GridDistribution::Sample at = texels->sample(u);
+  const float s = (static_cast<float>(at.x) + at.offset.x) / static_cast<float>(image->width());
+  const float t = (static_cast<float>(at.y) + at.offset.y) / static_cast<float>(image->height());
+  return normalize(axes.to_world({(2.0f * s - 1.0f) * half_x, (1.0f - 2.0f * t) * half_y, 1.0f}));
+}
+
+float ProjectionIntensity::pdf(Vec3 w) const {
+  const Vec3 v = axes.to_local(w);
+  const auto cell = cell_of(v);
+  if (!cell) return 0.0f;
+  const float texel_area = 4.0f * half_x * half_y / static_cast<float>(image->width() * image->height());
+  return texels->probability(cell->x, cell->y) / (texel_area * v.z * v.z * v.z);
+}
+
+double ProjectionIntensity::solid_angle(int x, int y) const {
+  const auto edge = [](int i, int n, float half) { return half * (2.0 * i / n - 1.0); };
+  const double x0 = edge(x, image->width(), half_x), x1 = edge(x + 1, image->width(), half_x);
+  const double y0 = edge(y, image->height(), half_y), y1 = edge(y + 1, image->height(), half_y);
+  return solid_angle_to(x1, y1) - solid_angle_to(x0, y1) - solid_angle_to(x1, y0) + solid_angle_to(x0, y0);
 }
 
 Spectrum ProjectionIntensity::power() const {
-  const auto edge = [](int i, int n, float half) { return half * (2.0 * i / n - 1.0); };
   double sum[3] = {0, 0, 0};
   for (int y = 0; y < image->height(); ++y)
     for (int x = 0; x < image->width(); ++x) {
-      const double x0 = edge(x, image->width(), half_x), x1 = edge(x + 1, image->width(), half_x);
-      const double y0 = edge(y, image->height(), half_y), y1 = edge(y + 1, image->height(), half_y);
-      const double solid_angle =
-          solid_angle_to(x1, y1) - solid_angle_to(x0, y1) - solid_angle_to(x1, y0) + solid_angle_to(x0, y0);
       const Spectrum value = texel(x, y);
-      for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(value[c]) * solid_angle;
+      for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(value[c]) * solid_angle(x, y);
     }
   return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
 }

@@ -8,6 +8,7 @@ namespace etd {
 
 struct ProjectionIntensity {
   const Image* image = nullptr;
+  const GridDistribution* texels = nullptr;  // in proportion to the mean of R, G and B, and to their solid angles
   Frame axes;                    // of the light, in the world: the image is seen along +z with +x right and +y up
   float half_x = 1, half_y = 1;  // of the image at z = 1
   float scale = 1;
@@ -28,13 +29,23 @@ struct ProjectionIntensity {
                               power_param()}};
     return d;
   }
+  // Of an image that reaches so far from the axis at z = 1; `data` keeps it.
+  static ProjectionIntensity of(Image image, const Frame& axes, float half_x, float half_y, LightData& data);
   static std::optional<PointLight<ProjectionIntensity>> create(const ParamReader& p, const LightContext& context);
 
   Spectrum intensity(Vec3 w) const;
+  std::optional<Vec3> sample(Vec2 u) const;
+  float pdf(Vec3 w) const;
   Spectrum power() const;
 
  private:
+  struct Cell {
+    int x, y;
+  };
+  // The texel in the local direction v; nothing beside the image.
+  std::optional<Cell> cell_of(Vec3 v) const;
   Spectrum texel(int x, int y) const;
+  double solid_angle(int x, int y) const;  // of a texel
 };
 
 }  // namespace etd

@@ -66,6 +66,12 @@ struct SpotIntensity {
     const float t = (c - cos_outer) / (cos_inner - cos_outer);
     return value * (t * t * (3.0f - 2.0f * t));
   }
+  // Uniform within the cone.
+  std::optional<Vec3> sample(Vec2 u) const {
+    const float z = 1.0f - u.x * (1.0f - cos_outer), r = safe_sqrt((1.0f - z) * (1.0f + z)), phi = 2.0f * kPi * u.y;
+    return normalize(Frame::from_z(axis).to_world({r * std::cos(phi), r * std::sin(phi), z}));
+  }
+  float pdf(Vec3 w) const { return dot(w, axis) > cos_outer ? 0.5f * kInvPi / (1.0f - cos_outer) : 0.0f; }
   // The step's mean is 1/2.
   Spectrum power() const { return value * (2.0f * kPi * (1.0f - 0.5f * (cos_inner + cos_outer))); }
 };

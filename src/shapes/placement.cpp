@@ -45,4 +45,11 @@ SurfacePoint to_world(const SurfacePoint& s, const Placement& placement) {
   return w;
 }
 
+SurfacePoint to_object(const SurfacePoint& s, const Placement& placement) {
+  SurfacePoint o = s;
+  o.p = placement.to_object.point(s.p);
+  o.ng = o.ns = normalize(placement.to_world.transposed(s.ng));
+  return o;
+}
+
 }  // namespace etd

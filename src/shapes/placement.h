@@ -23,6 +23,9 @@ Placement placement_at(const AnimatedTransform& motion, float time);
 // mirror and turned back by the convention. p_error grows by placement_error.
 SurfacePoint to_world(const SurfacePoint& s, const Placement& placement);
 
+// The place and the normals of a point of the world as they are in the object's space; the rest stays as it is.
+SurfacePoint to_object(const SurfacePoint& s, const Placement& placement);
+
 // How far, in object units, a ray origin near the object-space point p may be from where it should be after Embree has
 // taken it from world to object space.
 float placement_error(const Placement& placement, Point3 p);

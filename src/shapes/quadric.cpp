@@ -17,8 +17,6 @@ Vec3d vector_in_double(const Affine& a, Vec3d v) {
 Vec3d point_in_double(const Affine& a, Vec3d p) { return to_double(a.t) + vector_in_double(a, p); }
 Vec3d as_vector(Point3 p) { return {p.x, p.y, p.z}; }
 
-double determinant(const Affine& a) { return dot(to_double(a.x), cross(to_double(a.y), to_double(a.z))); }
-
 // Angle around z in [0, 2 pi).
 template <class T>
 T azimuth(T x, T y) {
@@ -227,8 +225,7 @@ SurfacePoint quadric_point(const Quadric& quadric, Vec3 hit) {
 }
 
 float quadric_area_stretch(const Quadric& quadric, Vec3 q) {
-  return static_cast<float>(std::abs(determinant(quadric.to_world))) *
-         length(quadric.to_object.transposed(quadric.unit_normal(q)));
+  return area_stretch(quadric.to_world, quadric.to_object, quadric.unit_normal(q));
 }
 
 float quadric_area(const Quadric& quadric) {

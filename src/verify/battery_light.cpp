@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "accel/accelerator.h"
-#include "accel/spawn.h"
-#include "accel/surface.h"
 #include "core/frame.h"
 #include "core/hash.h"
 #include "core/warp.h"
 #include "verify/battery.h"
 #include "verify/direction_histogram.h"
+#include "verify/light_rays.h"
 
 namespace etd {
 
@@ -25,40 +23,6 @@ const std::vector<Point3>& test_points() {
                                           {0.1f, 0.05f, 0.25f}, {-6.0f, 3.0f, 5.0f}, {0.0f, -0.2f, -0.3f}};
   return points;
 }
-
-// What a ray finds: the light's radiance back along it, and where.
-struct Seen {
-  Spectrum radiance;
-  std::optional<SurfacePoint> point;  // nothing for infinite lights and misses
-};
-
-class LightRays {
- public:
-  explicit LightRays(const LightModel& model) : model_(model), accelerator_(model.geometry) {}
-
-  Seen look(const Ray& ray) const {
-    Seen seen;
-    Hit hit;
-    if (accelerator_.intersect(ray, hit)) seen.point = surface_point(model_.geometry, hit);
-    if (seen.point || model_.infinite)
-      seen.radiance = model_.emitted(seen.point ? &*seen.point : nullptr, -ray.d, ray.o);
-    return seen;
-  }
-  // Density of light samples along wi, of those that are visible and carry light.
-  double pdf_visible(Point3 p, Vec3 wi) const {
-    const Seen seen = look({p, wi});
-    if (is_black(seen.radiance)) return 0.0;
-    return static_cast<double>(model_.pdf_li(p, wi, seen.point ? &*seen.point : nullptr));
-  }
-  // Whether the light's own surface is not in the way of the sample.
-  bool visible(Point3 p, const LightSample& s) const {
-    return model_.infinite || !accelerator_.occluded({p, s.on_light.p - p, 1.0f - 1e-4f});
-  }
-
- private:
-  const LightModel& model_;
-  Accelerator accelerator_;
-};
 
 void check_samples(const LightModel& m, const LightRays& rays, Point3 p, uint64_t seed, Worst& finite, Worst& sound) {
   HashStream numbers(seed);
@@ -117,7 +81,7 @@ void check_radiance(const LightModel& m, const LightRays& rays, Point3 p, size_t
   for (size_t i = 0; i < 4 * samples; ++i) {
     const float x = numbers.next_float(), y = numbers.next_float();
     const Vec3 wi = sample_sphere_uniform({x, y});
-    add(by_rays, wi, static_cast<double>(mean_value(rays.look({p, wi}).radiance)) / pdf_sphere_uniform());
+    add(by_rays, wi, static_cast<double>(mean_value(rays.look(p, wi).radiance)) / pdf_sphere_uniform());
   }
   for (int i = 0; i < 3; ++i) {
     const double a = by_light[i].mean(), b = by_rays[i].mean();
@@ -138,14 +102,12 @@ void check_power(const LightModel& m, const LightRays& rays, size_t samples, uin
     const float x = numbers.next_float(), y = numbers.next_float(), z = numbers.next_float(), w = numbers.next_float();
     const Vec3 n = sample_sphere_uniform({x, y});
     const Vec3 d = Frame::from_z(-n).to_world(sample_hemisphere_cosine({z, w}));
-    const Vec3 o = n * kRadius;
+    const Point3 o = Point3{} + n * kRadius;
     Spectrum sum;
-    Seen seen = rays.look({{o.x, o.y, o.z}, d});
-    sum += seen.radiance;
-    // More sheets than this no light has: a surface that rays cannot leave shows as too much flux.
-    for (int sheet = 0; seen.point && sheet < 16; ++sheet) {
-      seen = rays.look(spawn_ray(*seen.point, d));
-      sum += seen.radiance;
+    if (m.infinite) {
+      sum = rays.look(o, d).radiance;
+    } else {
+      rays.for_crossings(o, d, [&](const SurfacePoint& s) { sum += m.emitted(&s, -d, o); });
     }
     for (int lane = 0; lane < 3; ++lane) lanes[lane].add(static_cast<double>(sum[lane]));
   }
@@ -162,7 +124,7 @@ void check_power(const LightModel& m, const LightRays& rays, size_t samples, uin
 // Nothing but samples find a delta light. Its power is the flux that leaves the sphere of radius 3, or that enters the
 // unit sphere of an infinite one.
 void check_delta(const LightModel& m, size_t samples, uint64_t seed, Worst& finite, Worst& sound, WorstP& out) {
-  const float radius = m.infinite ? 1.0f : 3.0f;
+  const float radius = test_radius(m);
   const double area = 4.0 * kPiD * sqr(radius);
   HashStream numbers(seed);
   RunningStats lanes[3];
@@ -193,34 +155,53 @@ void check_delta(const LightModel& m, size_t samples, uint64_t seed, Worst& fini
   }
 }
 
+// With the checks of emission.
+std::vector<CheckResult> judged(std::vector<CheckResult> results, const LightModel& m,
+                                const LightBatteryOptions& options) {
+  for (CheckResult& r : check_emission(m, options)) results.push_back(std::move(r));
+  judge(results, options.family_level);
+  return results;
+}
+
 }  // namespace
 
 LightModel light_model(const LightExample& example) {
   const Light light = example.light;
   LightModel m;
   m.name = example.name;
+  const float time = m.time = example.time;
+  // What moves is a group of its own.
+  GeometryGroup group;
   if (example.mesh) {
     m.geometry.meshes.push_back(*example.mesh);
-    m.geometry.groups[0].meshes.push_back(0);
+    group.meshes.push_back(0);
   }
   if (example.patches) {
     m.geometry.patch_meshes.push_back(*example.patches);
-    m.geometry.groups[0].patch_meshes.push_back(0);
+    group.patch_meshes.push_back(0);
   }
   if (example.quadric) {
     m.geometry.quadrics.push_back(*example.quadric);
-    m.geometry.groups[0].quadric_end = 1;
+    group.quadric_end = 1;
   }
-  m.power = light.power();
+  if (example.motion) {
+    m.geometry.groups.push_back(group);
+    m.geometry.instances.push_back({placement_at(*example.motion, 0.0f), 1, example.motion.get()});
+  } else {
+    m.geometry.groups[0] = group;
+  }
+  m.on_surface = example.mesh || example.patches || example.quadric;
+  m.power = example.power_then.value_or(light.power());
   m.infinite = light.is_infinite();
   m.through_portal = example.through_portal;
   m.delta = light.is_delta();
   m.sampling = example.sampling;
-  m.sample_li = [light, sampling = example.sampling](Point3 p, Vec2 u) { return light.sample_li(p, u, sampling); };
-  m.pdf_li = [light, sampling = example.sampling](Point3 p, Vec3 wi, const SurfacePoint* s) {
-    return light.pdf_li(p, wi, s, sampling);
-  };
-  m.emitted = [light](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, from); };
+  const auto mode = example.sampling;
+  m.sample_li = [=](Point3 p, Vec2 u) { return light.sample_li(p, u, mode, time); };
+  m.pdf_li = [=](Point3 p, Vec3 wi, const SurfacePoint* s) { return light.pdf_li(p, wi, s, mode, time); };
+  m.emitted = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, from, time); };
+  m.sample_le = [=](Vec2 position, Vec2 direction) { return light.sample_le(position, direction, kTestScene, time); };
+  m.pdf_le = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.pdf_le(s, w, kTestScene, from, time); };
   return m;
 }
 
@@ -232,9 +213,7 @@ std::vector<CheckResult> check_light(const LightModel& m, const LightBatteryOpti
   uint64_t run = 0;
   if (m.delta) {
     check_delta(m, options.samples, options.seed, finite, sound, power);
-    std::vector<CheckResult> results{finite.result(), sound.result(), power.result()};
-    judge(results, options.family_level);
-    return results;
+    return judged({finite.result(), sound.result(), power.result()}, m, options);
   }
   for (const Point3& p : test_points()) {
     const uint64_t seed = hash_combine(options.seed, ++run);
@@ -244,10 +223,9 @@ std::vector<CheckResult> check_light(const LightModel& m, const LightBatteryOpti
       check_radiance(m, rays, p, options.samples, hash_combine(seed, 3), radiance);
   }
   check_power(m, rays, options.samples, hash_combine(options.seed, 1000), power);
-  std::vector<CheckResult> results{finite.result(), sound.result(),    chi_square.result(),
-                                   mass.result(),   radiance.result(), power.result()};
-  judge(results, options.family_level);
-  return results;
+  return judged(
+      {finite.result(), sound.result(), chi_square.result(), mass.result(), radiance.result(), power.result()}, m,
+      options);
 }
 
 std::vector<BatterySubject> light_subjects() {
