@@ -10,6 +10,11 @@
 
 namespace etd {
 
+namespace {
+// At 1 all light goes straight on, and no density says so.
+constexpr double kMaxMeanCosine = 0.999;
+}  // namespace
+
 std::vector<ParamDecl> CoatSource::params(const std::string& prefix) {
   std::vector<ParamDecl> list = RoughnessSource::params(prefix, 0.0, "of the coat");
   list.push_back({.name = prefix + "thickness",
@@ -26,12 +31,13 @@ std::vector<ParamDecl> CoatSource::params(const std::string& prefix) {
                   .max = 1,
                   .clamp = true,
                   .doc = "Share that the coat's medium scatters of what it takes out; 0 only absorbs."});
-  list.push_back({.name = "g",
-                  .type = ParamType::kFloatTexture,
-                  .default_value = 0.0,
-                  .min = -1,
-                  .max = 1,
-                  .doc = "Mean cosine of that scattering; positive goes on forwards."});
+  list.push_back(
+      {.name = "g",
+       .type = ParamType::kFloatTexture,
+       .default_value = 0.0,
+       .min = -kMaxMeanCosine,
+       .max = kMaxMeanCosine,
+       .doc = "Mean cosine of that scattering; positive goes on forwards. Values of a texture are clamped."});
   list.push_back({.name = "maxdepth",
                   .type = ParamType::kInteger,
                   .default_value = 10,
@@ -65,9 +71,10 @@ namespace {
 template <class Bottom>
 Bsdf under_coat(const CoatSource& coat, bool remap, const Bottom& bottom, const TexCoord& at,
                 const TextureTable& textures) {
+  constexpr auto max_g = static_cast<float>(kMaxMeanCosine);
   const LayerSettings layer{clamp(textures.eval(coat.albedo, at), 0.0f, 1.0f),
                             std::max(textures.eval(coat.thickness, at), 1e-20f),
-                            clamp(textures.eval(coat.g, at), -0.999f, 0.999f), coat.max_depth, coat.samples};
+                            clamp(textures.eval(coat.g, at), -max_g, max_g), coat.max_depth, coat.samples};
   const auto alpha = microfacet_alpha(textures.eval(coat.roughness.u, at), textures.eval(coat.roughness.v, at), remap);
   if (!alpha || coat.eta == 1.0f)
     return Bsdf(Layered<SmoothDielectric, Bottom>{SmoothDielectric{coat.eta}, bottom, layer});

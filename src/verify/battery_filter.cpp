@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/hash.h"
-#include "filters/filter.h"
 #include "scene/registry.h"
-#include "verify/battery.h"
+#include "verify/battery_models.h"
 #include "verify/parameter_grid.h"
 #include "verify/quadrature.h"
 #include "verify/worst.h"
@@ -30,22 +29,22 @@ struct FilterCells {
   double total = 0;
 };
 
-FilterCells integrate(const Filter& f) {
+FilterCells integrate(const FilterModel& f) {
   FilterCells cells;
   for (int j = 0; j < kCells; ++j)
     for (int i = 0; i < kCells; ++i) {
       const auto value = [&](double x, double y) {
         return std::array<double, 1>{f.eval({static_cast<float>(x), static_cast<float>(y)})};
       };
-      const double v = integrate_rect<1>(value, cell_of(f.radius(), i, j), 1e-8, 1e-5)[0];
+      const double v = integrate_rect<1>(value, cell_of(f.radius, i, j), 1e-8, 1e-5)[0];
       cells.expected[static_cast<size_t>(j * kCells + i)] = v;
       cells.total += v;
     }
   return cells;
 }
 
-void check_values(const Filter& f, Worst& finite, Worst& support) {
-  const Vec2 r = f.radius();
+void check_values(const FilterModel& f, Worst& finite, Worst& support) {
+  const Vec2 r = f.radius;
   for (const float x : {0.0f, 0.3f, 0.999f, 1.0f, 1.001f, 2.0f, 1e6f})
     for (const float y : {0.0f, -0.5f, -1.0f, -1.01f}) {
       const auto where = [&] { return fmt::format("at ({}, {}) radii", x, y); };
@@ -63,9 +62,17 @@ void check_values(const Filter& f, Worst& finite, Worst& support) {
     }
 }
 
-std::vector<CheckResult> check_filter(const std::string& name, const Filter& f, const BatteryOptions& options) {
-  Worst finite(name, "finite", 0.0), support(name, "zero beyond its radius", 0.0), unit(name, "integral = 1", 2e-4);
-  WorstP histogram(name, "weighted samples follow it"), mean(name, "mean weight = 1");
+}  // namespace
+
+FilterModel filter_model(const std::string& name, const Filter& filter) {
+  return {name, filter.radius(), [filter](Vec2 offset) { return filter.eval(offset); },
+          [filter](Vec2 u) { return filter.sample(u); }};
+}
+
+std::vector<CheckResult> check_filter(const FilterModel& f, const BatteryOptions& options) {
+  Worst finite(f.name, "finite", 0.0), support(f.name, "zero beyond its radius", 0.0);
+  Worst unit(f.name, "integral = 1", 2e-4);
+  WorstP histogram(f.name, "weighted samples follow it"), mean(f.name, "mean weight = 1");
   check_values(f, finite, support);
   const FilterCells cells = integrate(f);
   unit.add(std::abs(cells.total - 1.0), [&] { return fmt::format("{:.6f}", cells.total); });
@@ -81,7 +88,7 @@ std::vector<CheckResult> check_filter(const std::string& name, const Filter& f, 
     const float x = numbers.next_float(), y = numbers.next_float();
     const FilterSample s = f.sample({x, y});
     const double w = static_cast<double>(s.weight);
-    const auto cell = static_cast<size_t>(index(s.offset.y, f.radius().y) * kCells + index(s.offset.x, f.radius().x));
+    const auto cell = static_cast<size_t>(index(s.offset.y, f.radius.y) * kCells + index(s.offset.x, f.radius.x));
     sum[cell] += w;
     squares[cell] += w * w;
     weights.add(w);
@@ -113,8 +120,6 @@ std::vector<CheckResult> check_filter(const std::string& name, const Filter& f, 
   return results;
 }
 
-}  // namespace
-
 std::vector<BatterySubject> filter_subjects() {
   std::vector<BatterySubject> subjects;
   for (const ModelDecl* decl : models(Family::kFilter))
@@ -122,7 +127,7 @@ std::vector<BatterySubject> filter_subjects() {
       const std::string name = setting_name(use);
       subjects.push_back({"filter", decl->name, name, [name, use](const BatteryOptions& options) {
                             Diagnostics diagnostics;
-                            return check_filter(name, make_filter(use, diagnostics), options);
+                            return check_filter(filter_model(name, make_filter(use, diagnostics)), options);
                           }});
     }
   return subjects;

@@ -4,7 +4,7 @@
 
 #include "core/warp.h"
 #include "phase/henyey_greenstein.h"
-#include "verify/battery.h"
+#include "verify/battery_models.h"
 #include "verify/direction_histogram.h"
 
 namespace etd {
@@ -13,17 +13,18 @@ namespace {
 
 constexpr size_t kSamples = 50000;
 
-// With its type erased.
-struct PhaseModel {
-  std::string name;
-  double mean_cosine;  // of going on straight ahead
-  std::function<float(Vec3, Vec3)> p;
-  std::function<Vec3(Vec3, Vec2)> sample;
-};
-
 const std::vector<Vec3>& directions() {
   static const std::vector<Vec3> list{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, normalize(Vec3{0.3f, -0.5f, 0.7f})};
   return list;
+}
+
+}  // namespace
+
+PhaseModel henyey_greenstein_model(float g) {
+  const HenyeyGreenstein phase{g};
+  return {fmt::format("henyeygreenstein(g {:g})", g), static_cast<double>(g),
+          [phase](Vec3 wo, Vec3 wi) { return phase.p(wo, wi); },
+          [phase](Vec3 wo, Vec2 u) { return phase.sample(wo, u); }};
 }
 
 std::vector<CheckResult> check_phase(const PhaseModel& m, const BatteryOptions& options) {
@@ -66,15 +67,10 @@ std::vector<CheckResult> check_phase(const PhaseModel& m, const BatteryOptions& 
   return results;
 }
 
-}  // namespace
-
 std::vector<BatterySubject> phase_subjects() {
   std::vector<BatterySubject> subjects;
   for (const float g : {0.0f, 5e-4f, 0.3f, 0.9f, -0.2f, -0.85f}) {
-    const HenyeyGreenstein phase{g};
-    const PhaseModel m{fmt::format("henyeygreenstein(g {:g})", g), static_cast<double>(g),
-                       [phase](Vec3 wo, Vec3 wi) { return phase.p(wo, wi); },
-                       [phase](Vec3 wo, Vec2 u) { return phase.sample(wo, u); }};
+    const PhaseModel m = henyey_greenstein_model(g);
     subjects.push_back(
         {"phase", "henyeygreenstein", m.name, [m](const BatteryOptions& options) { return check_phase(m, options); }});
   }

@@ -4,34 +4,29 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <set>
 
-#include "verify/battery.h"
+#include "verify/battery_models.h"
 #include "verify/worst.h"
 
 namespace etd {
 
 namespace {
 
-Sampler started(SamplerKind kind, uint64_t seed, uint64_t stream, uint32_t replicate, uint32_t index,
-                uint32_t dimension) {
-  Sampler s(kind, seed);
-  s.start(stream, replicate, index);
-  s.set_dimension(dimension);
-  return s;
-}
-
 // Every box of the form [i/2^a, (i+1)/2^a) x [j/2^b, (j+1)/2^b) with a + b = m holds one of 2^m points of an aligned
 // block of indices; the same for numbers along one axis.
-CheckResult check_elementary_intervals(const std::string& name, SamplerKind kind, uint64_t seed) {
-  Worst worst(name, "elementary intervals", 0.0);
-  for (uint32_t run = 0; run < 24; ++run)
+CheckResult check_elementary_intervals(const SamplerModel& model, uint64_t seed) {
+  Worst worst(model.name, "elementary intervals", 0.0);
+  for (uint32_t run = 0; run < 24; ++run) {
+    const SamplerFunctions s = model.make(seed + run);
     for (uint32_t m = 0; m <= 9; ++m) {
       const uint32_t n = 1u << m, first = run % 3 * n;
       std::vector<Vec2> points;
       std::set<uint32_t> lines, choices;
       for (uint32_t i = first; i < first + n; ++i) {
-        Sampler s = started(kind, seed + run, 77 * run, run % 2, i, run);
+        s.start(77 * run, run % 2, i);
+        s.set_dimension(run);
         points.push_back(s.get_2d());
         lines.insert(static_cast<uint32_t>(s.get_1d() * static_cast<float>(n)));
         choices.insert(static_cast<uint32_t>(s.get_choice() * n));
@@ -51,18 +46,20 @@ CheckResult check_elementary_intervals(const std::string& name, SamplerKind kind
         worst.add(empty, where);
       }
     }
+  }
   return worst.result();
 }
 
 // For a fixed index, the scramble alone makes the value uniform: what unbiasedness rests on.
-void check_uniform(SamplerKind kind, size_t streams, uint64_t seed, Worst& range, WorstP& uniform) {
+void check_uniform(const SamplerModel& model, size_t streams, uint64_t seed, Worst& range, WorstP& uniform) {
   constexpr int kCells = 64;
+  const SamplerFunctions s = model.make(seed);
   const std::vector<double> expected(kCells, static_cast<double>(streams) / kCells);
   for (const uint32_t index : {0u, 1u, 2u, 7u, 1000u, 0xffffffffu}) {
     std::vector<double> counts[4];
     for (auto& c : counts) c.assign(kCells, 0.0);
     for (uint64_t stream = 0; stream < streams; ++stream) {
-      Sampler s = started(kind, seed, stream, 0, index, 0);
+      s.start(stream, 0, index);
       const Vec2 xy = s.get_2d();
       const double values[4] = {xy.x, xy.y, s.get_1d(), s.get_choice()};
       for (size_t v = 0; v < 4; ++v) {
@@ -89,9 +86,11 @@ struct Origin {
 // Numbers of different pixels, replicates, indices and dimensions, drawn together many times: every pair of them must
 // be independent, as their joint histogram tells. Of one dimension of one stream, a stratified sampler's points for
 // different indices are meant to depend on each other, and are left out.
-CheckResult check_independence(const std::string& name, SamplerKind kind, size_t draws, uint64_t seed) {
+CheckResult check_independence(const SamplerModel& model, size_t draws, uint64_t seed) {
   constexpr size_t kCells = 8;
-  WorstP worst(name, "dimensions, pixels, replicates");
+  WorstP worst(model.name, "dimensions, pixels, replicates");
+  const SamplerFunctions s = model.make(seed);
+  const auto cell = [](float v) { return static_cast<uint8_t>(clamp(v, 0.0f, kOneMinusEpsilon) * kCells); };
   std::vector<Origin> origins;
   std::vector<std::vector<uint8_t>> cells;
   for (uint32_t pixel = 0; pixel < 2; ++pixel)
@@ -100,9 +99,11 @@ CheckResult check_independence(const std::string& name, SamplerKind kind, size_t
         for (uint32_t dimension = 0; dimension < 3; ++dimension) {
           std::vector<uint8_t> x, y;
           for (size_t draw = 0; draw < draws; ++draw) {
-            const Vec2 u = started(kind, seed, 2 * draw + pixel, replicate, index, dimension).get_2d();
-            x.push_back(static_cast<uint8_t>(u.x * kCells));
-            y.push_back(static_cast<uint8_t>(u.y * kCells));
+            s.start(2 * draw + pixel, replicate, index);
+            s.set_dimension(dimension);
+            const Vec2 u = s.get_2d();
+            x.push_back(cell(u.x));
+            y.push_back(cell(u.y));
           }
           cells.push_back(std::move(x));
           cells.push_back(std::move(y));
@@ -122,9 +123,9 @@ CheckResult check_independence(const std::string& name, SamplerKind kind, size_t
   return worst.result();
 }
 
-CheckResult check_random_access(const std::string& name, SamplerKind kind, uint64_t seed) {
-  Worst worst(name, "random access", 0.0);
-  Sampler forwards(kind, seed), again(kind, seed);
+CheckResult check_random_access(const SamplerModel& model, uint64_t seed) {
+  Worst worst(model.name, "random access", 0.0);
+  const SamplerFunctions forwards = model.make(seed), again = model.make(seed);
   for (uint32_t index = 0; index < 200; ++index) {
     forwards.start(1234, 1, index);
     const float a = forwards.get_1d();
@@ -147,37 +148,56 @@ CheckResult check_random_access(const std::string& name, SamplerKind kind, uint6
   return worst.result();
 }
 
-CheckResult check_keys(const std::string& name, SamplerKind kind, uint64_t first_seed) {
-  Worst worst(name, "seeds and replicates differ", 0.0);
+CheckResult check_keys(const SamplerModel& model, uint64_t first_seed) {
+  Worst worst(model.name, "seeds and replicates differ", 0.0);
   std::set<uint64_t> keys;
-  for (uint64_t seed = first_seed; seed < first_seed + 64; ++seed)
-    for (uint32_t replicate = 0; replicate < 512; ++replicate)
-      keys.insert(started(kind, seed, 0, replicate, 0, 0).key(0));
+  for (uint64_t seed = first_seed; seed < first_seed + 64; ++seed) {
+    const SamplerFunctions s = model.make(seed);
+    for (uint32_t replicate = 0; replicate < 512; ++replicate) {
+      s.start(0, replicate, 0);
+      keys.insert(s.key());
+    }
+  }
   worst.add(64.0 * 512.0 - static_cast<double>(keys.size()), [] { return "keys that two of them share"; });
   return worst.result();
 }
 
-std::vector<CheckResult> check_sampler(const std::string& name, const BatteryOptions& options) {
+}  // namespace
+
+SamplerModel sampler_model(const std::string& name) {
   const SamplerKind kind = sampler_kind(name);
+  return {name, kind == SamplerKind::kSobol, [kind](uint64_t seed) {
+            const auto s = std::make_shared<Sampler>(kind, seed);
+            return SamplerFunctions{.start = [s](uint64_t stream, uint32_t replicate,
+                                                 uint32_t index) { s->start(stream, replicate, index); },
+                                    .set_dimension = [s](uint32_t dimension) { s->set_dimension(dimension); },
+                                    .get_1d = [s] { return s->get_1d(); },
+                                    .get_2d = [s] { return s->get_2d(); },
+                                    .get_3d = [s] { return s->get_3d(); },
+                                    .get_choice = [s] { return s->get_choice(); },
+                                    .key = [s] { return s->key(0); }};
+          }};
+}
+
+std::vector<CheckResult> check_sampler(const SamplerModel& model, const BatteryOptions& options) {
   const auto scaled = [&](double n) { return static_cast<size_t>(options.samples * n); };
-  Worst range(name, "in [0, 1)", 0.0);
-  WorstP uniform(name, "uniform at every index");
-  check_uniform(kind, scaled(1 << 15), options.seed, range, uniform);
+  Worst range(model.name, "in [0, 1)", 0.0);
+  WorstP uniform(model.name, "uniform at every index");
+  check_uniform(model, scaled(1 << 15), options.seed, range, uniform);
   std::vector<CheckResult> results{range.result(), uniform.result(),
-                                   check_independence(name, kind, scaled(1 << 13), options.seed),
-                                   check_random_access(name, kind, options.seed), check_keys(name, kind, options.seed)};
-  if (kind == SamplerKind::kSobol) results.push_back(check_elementary_intervals(name, kind, options.seed));
+                                   check_independence(model, scaled(1 << 13), options.seed),
+                                   check_random_access(model, options.seed), check_keys(model, options.seed)};
+  if (model.stratified) results.push_back(check_elementary_intervals(model, options.seed));
   judge(results, options.family_level);
   return results;
 }
 
-}  // namespace
-
 std::vector<BatterySubject> sampler_subjects() {
   std::vector<BatterySubject> subjects;
   for (const ModelDecl* decl : sampler_models())
-    subjects.push_back({"sampler", decl->name, decl->name,
-                        [name = decl->name](const BatteryOptions& options) { return check_sampler(name, options); }});
+    subjects.push_back(
+        {"sampler", decl->name, decl->name,
+         [model = sampler_model(decl->name)](const BatteryOptions& options) { return check_sampler(model, options); }});
   return subjects;
 }
 

@@ -9,7 +9,7 @@
 #include "io/image_write.h"
 #include "scene/registry.h"
 #include "verify/bare_scene.h"
-#include "verify/battery.h"
+#include "verify/battery_models.h"
 #include "verify/parameter_grid.h"
 #include "verify/worst.h"
 
@@ -40,45 +40,54 @@ class SmallImage {
   std::filesystem::path path_;
 };
 
-std::vector<CheckResult> check_texture(const std::string& name, const ModelUse& use) {
-  Worst made(name, "is made from its declaration", 0.5), finite(name, "finite", 0.0);
-  Worst same(name, "the same at the same place", 0.0), lanes(name, "a number in all lanes", 0.0);
-  const float places[] = {0.0f, -0.0f, 0.25f, 0.5f, 1.0f, kOneMinusEpsilon, -0.3f, 17.0f, -1e4f, 1e6f, 3e9f, 1e-30f};
-  for (const bool is_float : {false, true}) {
+// What one kind alone (colours or numbers) can be is made as that.
+std::vector<CheckResult> check_use(const std::string& name, const ModelUse& use) {
+  std::vector<CheckResult> results;
+  std::string problem;
+  for (const bool is_number : {false, true}) {
     SceneDescription d = bare_description();
-    d.textures.push_back({"t", is_float, use, {}});
+    d.textures.push_back({"t", is_number, use, {}});
     const BareScene bare = compile_bare(d);
-    // What one kind alone can be is made as that.
     if (!bare.scene) {
-      if (!is_float)
-        made.add(0.5, [&] { return bare.problem; });
-      else if (made.result().statistic > 0.0)
-        made.add(1.0, [&] { return bare.problem; });
+      problem = bare.problem;
       continue;
     }
-    const TextureTable& table = bare.scene->textures;
-    const Texture& texture = table.textures.back();
-    const auto check = [&](Vec2 uv) {
-      const auto where = [&] { return fmt::format("uv ({:g}, {:g})", uv.x, uv.y); };
-      const Spectrum a = texture.eval({uv}, table), b = texture.eval({uv}, table);
-      finite.add(is_finite(a) ? 0.0 : 1.0, where);
-      for (int i = 0; i < Spectrum::kLanes; ++i) {
-        same.add(a[i] == b[i] || !is_finite(a) ? 0.0 : 1.0, where);
-        if (is_float) lanes.add(a[i] == a[0] || !is_finite(a) ? 0.0 : 1.0, where);
-      }
+    const auto eval = [scene = bare.scene](Vec2 uv) {
+      return scene->textures.textures.back().eval({uv}, scene->textures);
     };
-    for (const float u : places)
-      for (const float v : places) check({u, v});
-    HashStream numbers(5);
-    for (int i = 0; i < 2000; ++i) {
-      const float u = numbers.next_float(), v = numbers.next_float();
-      check({20.0f * u - 10.0f, 20.0f * v - 10.0f});
-    }
+    for (CheckResult& r : check_texture({name, is_number, eval})) results.push_back(std::move(r));
   }
-  return {made.result(), finite.result(), same.result(), lanes.result()};
+  if (results.empty()) results.push_back({name, "is made from its declaration", false, 0.0, {}, problem});
+  return results;
 }
 
 }  // namespace
+
+std::vector<CheckResult> check_texture(const TextureModel& m) {
+  const std::string name = m.name + (m.is_number ? " as numbers" : " as colours");
+  Worst finite(name, "finite", 0.0), same(name, "the same at the same place", 0.0);
+  Worst lanes(name, "a number in all lanes", 0.0);
+  const auto check = [&](Vec2 uv) {
+    const auto where = [&] { return fmt::format("uv ({:g}, {:g})", uv.x, uv.y); };
+    const Spectrum a = m.eval(uv), b = m.eval(uv);
+    finite.add(is_finite(a) ? 0.0 : 1.0, where);
+    for (int i = 0; i < Spectrum::kLanes; ++i) {
+      same.add(a[i] == b[i] || !is_finite(a) ? 0.0 : 1.0, where);
+      if (m.is_number) lanes.add(a[i] == a[0] || !is_finite(a) ? 0.0 : 1.0, where);
+    }
+  };
+  const float places[] = {0.0f, -0.0f, 0.25f, 0.5f, 1.0f, kOneMinusEpsilon, -0.3f, 17.0f, -1e4f, 1e6f, 3e9f, 1e-30f};
+  for (const float u : places)
+    for (const float v : places) check({u, v});
+  HashStream numbers(5);
+  for (int i = 0; i < 2000; ++i) {
+    const float u = numbers.next_float(), v = numbers.next_float();
+    check({20.0f * u - 10.0f, 20.0f * v - 10.0f});
+  }
+  std::vector<CheckResult> results{finite.result(), same.result()};
+  if (m.is_number) results.push_back(lanes.result());
+  return results;
+}
 
 std::vector<BatterySubject> texture_subjects() {
   std::vector<BatterySubject> subjects;
@@ -86,8 +95,8 @@ std::vector<BatterySubject> texture_subjects() {
   for (const ModelDecl* decl : models(Family::kTexture))
     for (const ModelUse& use : parameter_grid(*decl, image->path())) {
       const std::string name = setting_name(use);
-      subjects.push_back({"texture", decl->name, name,
-                          [name, use, image](const BatteryOptions&) { return check_texture(name, use); }});
+      subjects.push_back(
+          {"texture", decl->name, name, [name, use, image](const BatteryOptions&) { return check_use(name, use); }});
     }
   return subjects;
 }

@@ -8,43 +8,18 @@
 #include "core/warp.h"
 #include "core/windowed_distribution.h"
 #include "phase/henyey_greenstein.h"
-#include "verify/battery.h"
+#include "verify/battery_models.h"
 #include "verify/worst.h"
 
 namespace etd {
 
 namespace {
 
-struct Warp {
-  std::string model;    // the function, as core/ names it
-  std::string setting;  // what else it depends on
-  std::function<Vec3d(Vec2)> map;
-  std::function<double(Vec2)> pdf;                               // per area (or solid angle) where u is sent to
-  std::function<bool(Vec2)> smooth = [](Vec2) { return true; };  // no kink and not too steep near u
-  float step = 0.004f;                                           // of the differences
-};
-
 // Fourth order central difference along one axis.
-Vec3d derivative(const Warp& w, Vec2 u, Vec2 axis) {
+Vec3d derivative(const WarpModel& w, Vec2 u, Vec2 axis) {
   const auto at = [&](float t) { return w.map(Vec2{u.x + axis.x * t, u.y + axis.y * t}); };
   const float h = w.step;
   return ((at(h) - at(-h)) * 8.0 - (at(2.0f * h) - at(-2.0f * h))) / (12.0 * static_cast<double>(h));
-}
-
-std::vector<CheckResult> check_warp(const std::string& name, const Warp& w) {
-  Worst jacobian(name, "1 / pdf = Jacobian", 4e-3), finite(name, "finite at the edges", 0.0);
-  for (float x = 0.0237f; x < 0.98f; x += 0.0313f)
-    for (float y = 0.0419f; y < 0.97f; y += 0.0291f) {
-      if (!w.smooth({x, y})) continue;
-      const double area = length(cross(derivative(w, {x, y}, {1, 0}), derivative(w, {x, y}, {0, 1})));
-      jacobian.add(std::abs(area * w.pdf({x, y}) - 1.0), [&] { return fmt::format("at u = ({:.4f}, {:.4f})", x, y); });
-    }
-  for (const float x : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, kOneMinusEpsilon})
-    for (const float y : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, kOneMinusEpsilon}) {
-      const Vec3d p = w.map({x, y});
-      finite.add(std::isfinite(p.x + p.y + p.z) ? 0.0 : 1.0, [&] { return fmt::format("at u = ({}, {})", x, y); });
-    }
-  return {jacobian.result(), finite.result()};
 }
 
 Vec3d in_plane(Vec2 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), 0.0}; }
@@ -53,13 +28,13 @@ bool off_diagonals(Vec2 u) { return std::abs(u.x - u.y) > 0.02f && std::abs(u.x 
 // Malley's hemisphere is also too steep at the horizon for finite differences.
 bool off_horizon(Vec2 u) { return off_diagonals(u) && std::max(std::abs(u.x - 0.5f), std::abs(u.y - 0.5f)) < 0.46f; }
 
-Warp spherical_triangle(std::string setting, const Point3d (&corners)[3]) {
+WarpModel spherical_triangle(std::string setting, const Point3d (&corners)[3]) {
   const SphericalTriangle t({0, 0, 0}, corners);
   return {"SphericalTriangle::sample", std::move(setting), [t](Vec2 u) { return t.sample(u); },
           [t](Vec2) { return 1.0 / t.solid_angle(); }};
 }
 
-Warp spherical_rectangle(std::string setting, Point3d corner, Vec3d x, Vec3d y) {
+WarpModel spherical_rectangle(std::string setting, Point3d corner, Vec3d x, Vec3d y) {
   const SphericalRectangle r({0, 0, 0}, corner, x, y);
   const auto direction = [=](Vec2 u) {
     const Vec2T<double> at = r.sample(u);
@@ -68,7 +43,7 @@ Warp spherical_rectangle(std::string setting, Point3d corner, Vec3d x, Vec3d y) 
   return {"SphericalRectangle::sample", std::move(setting), direction, [r](Vec2) { return 1.0 / r.solid_angle(); }};
 }
 
-Warp spherical_cap(double distance) {
+WarpModel spherical_cap(double distance) {
   const Point3d center{0.0, 0.6 * distance, -0.8 * distance};
   const SphericalCap cap = *SphericalCap::seen_from({0, 0, 0}, center, 1.0);
   const auto direction = [=](Vec2 u) { return normalize(center + cap.sample_normal(u) - Point3d{0, 0, 0}); };
@@ -77,7 +52,7 @@ Warp spherical_cap(double distance) {
 }
 
 // Uneven cells, one of them empty.
-Warp grid_distribution() {
+WarpModel grid_distribution() {
   const std::vector<double> weights{1, 2, 0, 4, 3, 1, 5, 2};
   const auto grid = std::make_shared<const GridDistribution>(4, 2, weights);
   const auto point = [grid](Vec2 u) {
@@ -97,7 +72,7 @@ Warp grid_distribution() {
 }
 
 // A window that cuts cells.
-Warp windowed_distribution() {
+WarpModel windowed_distribution() {
   const std::vector<double> densities{1, 2, 0.5, 4, 3, 1, 5, 2};
   const auto grid = std::make_shared<const WindowedDistribution>(4, 2, densities);
   const WindowedDistribution::Window window{{0.1, 0.2}, {0.85, 0.9}};
@@ -114,7 +89,7 @@ Warp windowed_distribution() {
           [=](Vec2 u) { return grid->pdf(grid->sample(u, window), window); }, inside};
 }
 
-Warp visible_normals(float ax, float ay, Vec3 wo) {
+WarpModel visible_normals(float ax, float ay, Vec3 wo) {
   const Ggx ggx{ax, ay};
   const auto pdf = [=](Vec2 u) {
     const Vec3 h = ggx.sample_visible(wo, u);
@@ -125,7 +100,7 @@ Warp visible_normals(float ax, float ay, Vec3 wo) {
           [](Vec2 u) { return u.y > 0.06f && u.y < 0.94f; }};
 }
 
-Warp henyey_greenstein(float g) {
+WarpModel henyey_greenstein(float g) {
   const HenyeyGreenstein phase{g};
   const Vec3 wo = normalize(Vec3{0.3f, -0.5f, 0.7f});
   return {"HenyeyGreenstein::sample", fmt::format("g {:g}", g), [=](Vec2 u) { return to_double(phase.sample(wo, u)); },
@@ -133,7 +108,7 @@ Warp henyey_greenstein(float g) {
           [](Vec2 u) { return u.x > 0.05f && u.x < 0.95f; }};
 }
 
-std::vector<Warp> warps() {
+std::vector<WarpModel> warps() {
   const Vec3 oblique = normalize(Vec3{0.5f, -0.4f, 0.6f}), grazing = normalize(Vec3{-0.3f, 0.9f, 0.05f});
   return {
       {"sample_disk_concentric", "", [](Vec2 u) { return in_plane(sample_disk_concentric(u)); },
@@ -184,12 +159,26 @@ std::vector<CheckResult> check_alias_table() {
 
 }  // namespace
 
+std::vector<CheckResult> check_warp(const WarpModel& w) {
+  Worst jacobian(w.name(), "1 / pdf = Jacobian", 4e-3), finite(w.name(), "finite at the edges", 0.0);
+  for (float x = 0.0237f; x < 0.98f; x += 0.0313f)
+    for (float y = 0.0419f; y < 0.97f; y += 0.0291f) {
+      if (!w.smooth({x, y})) continue;
+      const double area = length(cross(derivative(w, {x, y}, {1, 0}), derivative(w, {x, y}, {0, 1})));
+      jacobian.add(std::abs(area * w.pdf({x, y}) - 1.0), [&] { return fmt::format("at u = ({:.4f}, {:.4f})", x, y); });
+    }
+  for (const float x : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, kOneMinusEpsilon})
+    for (const float y : {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, kOneMinusEpsilon}) {
+      const Vec3d p = w.map({x, y});
+      finite.add(std::isfinite(p.x + p.y + p.z) ? 0.0 : 1.0, [&] { return fmt::format("at u = ({}, {})", x, y); });
+    }
+  return {jacobian.result(), finite.result()};
+}
+
 std::vector<BatterySubject> warp_subjects() {
   std::vector<BatterySubject> subjects;
-  for (const Warp& w : warps()) {
-    const std::string name = w.setting.empty() ? w.model : w.model + "(" + w.setting + ")";
-    subjects.push_back({"warp", w.model, name, [w, name](const BatteryOptions&) { return check_warp(name, w); }});
-  }
+  for (const WarpModel& w : warps())
+    subjects.push_back({"warp", w.model, w.name(), [w](const BatteryOptions&) { return check_warp(w); }});
   subjects.push_back(
       {"warp", "AliasTable::sample", "AliasTable::sample", [](const BatteryOptions&) { return check_alias_table(); }});
   return subjects;
