@@ -193,15 +193,14 @@ TEST_F(Cli, TonemapsWhatWasRendered) {
   }
 }
 
-// Two skies, each as bright as a float can be.
+// A lamp so bright and close to a ball that no float can hold what arrives there.
 constexpr const char* kTooBright = R"(
 Film "rgb" "integer xresolution" 24 "integer yresolution" 16
 Sampler "independent" "integer pixelsamples" 4
 LookAt 0 0 -3  0 0 0  0 1 0
 Camera "perspective" "float fov" 60
 WorldBegin
-LightSource "infinite" "rgb L" [ 2e38 2e38 2e38 ]
-LightSource "infinite" "rgb L" [ 2e38 2e38 2e38 ]
+LightSource "point" "rgb I" [ 1e37 1e37 1e37 ] "point3 from" [ 0 0 -1.05 ]
 Shape "sphere"
 )";
 

@@ -239,14 +239,13 @@ TEST(Replay, NamesWhatThePathMeets) {
   EXPECT_GT(sky, 3u);
 }
 
-// Two skies, each as bright as a float can be: no float can hold what is seen behind the ball.
+// A lamp so bright and close to the ball that no float can hold what arrives there.
 constexpr const char* kTooBright = R"(Film "rgb" "integer xresolution" 20 "integer yresolution" 20
 Sampler "independent" "integer pixelsamples" 4
 LookAt 0 0 -3  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 WorldBegin
-LightSource "infinite" "rgb L" [ 2e38 2e38 2e38 ]
-LightSource "infinite" "rgb L" [ 2e38 2e38 2e38 ]
+LightSource "point" "rgb I" [ 1e37 1e37 1e37 ] "point3 from" [ 0 0 -1.05 ]
 Shape "sphere"
 )";
 
@@ -267,10 +266,10 @@ TEST(Replay, ShowsInvalidSamplesAsTheyAre) {
   const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
   EXPECT_EQ(received_by_film(path, in).rgb, (std::array<double, 3>{}));
   const std::string text = replay_text(path, in);
-  EXPECT_NE(text.find("sum         emission (inf, inf, inf)"), std::string::npos) << text;
+  EXPECT_NE(text.find("direct   (inf, inf, inf)"), std::string::npos) << text;
   EXPECT_NE(text.find("the sample is invalid"), std::string::npos) << text;
   const auto json = nlohmann::json::parse(replay_json(path, in));
-  EXPECT_EQ(json["sum"]["emission"][0], "Infinity");
+  EXPECT_EQ(json["sum"]["direct"][0], "Infinity");
   EXPECT_EQ(json["valid"], false);
 
   const LayeredImage image = finished_image(*prepared, finished);

@@ -30,7 +30,7 @@ struct PointLight {
     // A normal towards p lets the shadow ray end as close to the light as rounding allows.
     s.on_light.p = position;
     s.on_light.ng = s.on_light.ns = -s.wi;
-    if (is_black(s.radiance) || !is_finite(s.radiance)) return {};
+    if (is_black(s.radiance)) return {};
     return s;
   }
   float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
