@@ -113,7 +113,7 @@ TEST(LightBatterySeeds, DISABLED_NoFalseAlarmOfEmissionInTwenty) {
   for (uint64_t seed = 1; seed <= 20; ++seed)
     for (const LightExample& e : light_examples())
       for (const CheckResult& r :
-           emission(light_model(e), {20000, seed, 1e-4 / static_cast<double>(20 * light_examples().size())}))
+           emission(light_model(e), {20000, seed, 1e-4 / static_cast<double>(light_examples().size())}))
         EXPECT_TRUE(r.passed) << "seed " << seed << ": " << to_string(r);
 }
 
