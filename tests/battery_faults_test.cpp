@@ -88,7 +88,8 @@ FilterModel filter(const char* name) {
 }
 
 TEST(FilterBatteryFaults, SoundModelsPass) {
-  for (const char* name : {"gaussian", "mitchell"}) EXPECT_EQ(failed(check_filter(filter(name), kOptions)), Names{}) << name;
+  for (const char* name : {"gaussian", "mitchell"})
+    EXPECT_EQ(failed(check_filter(filter(name), kOptions)), Names{}) << name;
 }
 
 TEST(FilterBatteryFaults, WeightsTwoPercentOff) {
@@ -191,7 +192,9 @@ TEST(WarpBatteryFaults, DensityWithoutJacobian) {
 
 TEST(WarpBatteryFaults, InfiniteAtTheEdge) {
   const WarpModel exponential{"exponential", "",
-                              [](Vec2 u) { return to_double(Vec3{-std::log(u.x), u.y, 0.0f}); },
+                              [](Vec2 u) {
+                                return to_double(Vec3{-std::log(u.x), u.y, 0.0f});
+                              },
                               [](Vec2 u) { return static_cast<double>(u.x); }};
   EXPECT_EQ(failed(check_warp(exponential)), (Names{"finite at the edges"}));
 }
@@ -248,8 +251,10 @@ TEST(TextureBatteryFaults, NotTheSameTwice) {
 }
 
 TEST(TextureBatteryFaults, InfiniteAtTheOriginOrFarAway) {
-  EXPECT_EQ(failed(check_texture({"hyperbola", false, [](Vec2 uv) { return Spectrum(1.0f / uv.x); }})), (Names{"finite"}));
-  EXPECT_EQ(failed(check_texture({"power", false, [](Vec2 uv) { return Spectrum(std::exp(uv.y)); }})), (Names{"finite"}));
+  EXPECT_EQ(failed(check_texture({"hyperbola", false, [](Vec2 uv) { return Spectrum(1.0f / uv.x); }})),
+            (Names{"finite"}));
+  EXPECT_EQ(failed(check_texture({"power", false, [](Vec2 uv) { return Spectrum(std::exp(uv.y)); }})),
+            (Names{"finite"}));
 }
 
 TEST(TextureBatteryFaults, ANumberThatIsAColour) {
@@ -274,10 +279,12 @@ TEST(MaterialBatteryFaults, CannotBeMade) {
 
 TEST(MaterialBatteryFaults, SharesOfAMix) {
   const auto share_of = [](double share) {
-    return failed(check_mix("mix", 0.3, [share](HashStream& rng) { return rng.next_float() < share ? 1.0 : 0.0; }, kOptions));
+    return failed(check_mix(
+        "mix", 0.3, [share](HashStream& rng) { return rng.next_float() < share ? 1.0 : 0.0; }, kOptions));
   };
   EXPECT_EQ(share_of(0.3), Names{});
-  for (const double wrong : {0.7, 0.25, 0.35, 1.0}) EXPECT_EQ(share_of(wrong), (Names{"share of the second material"})) << wrong;
+  for (const double wrong : {0.7, 0.25, 0.35, 1.0})
+    EXPECT_EQ(share_of(wrong), (Names{"share of the second material"})) << wrong;
 }
 
 }  // namespace

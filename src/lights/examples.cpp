@@ -140,38 +140,42 @@ LightExample growing(F make, const Transform& end, float time) {
   return example;
 }
 
-// Lights that move: under a stretch that is not the same everywhere of them, and as large balls are blown up.
-std::vector<LightExample> moving_examples() {
-  const Transform turn = Transform::translate({0.3, 0.2, -0.2}) * Transform::rotate(100, {1, -1, 2});
-  const Transform stretch = turn * Transform::scale({1.6, 0.6, 1.2}), growth = turn * Transform::scale({2, 2, 2});
-  const Point3d three[3] = {{-1.0, -0.8, 0.1}, {1.2, -0.5, -0.1}, {0.1, 1.1, 0.2}};
-  const Point3d four[4] = {{-0.6, -0.9, 0.4}, {0.8, -0.7, -0.5}, {-0.9, 0.5, -0.4}, {0.7, 0.6, 0.7}};
-  const auto at = [](const Transform& t, Point3d p) { return to_float(t.point(p)); };
-  return {
-      growing(
-          [&](const Transform& t) {
-            const Point3 p[3] = {at(t, three[0]), at(t, three[1]), at(t, three[2])};
-            return triangle("diffuse(triangle, two-sided, stretching)", true, false, p);
-          },
-          stretch, 0.7f),
-      growing(
-          [&](const Transform& t) {
-            return patch("diffuse(twisted patch, stretching)", false,
-                         {at(t, four[0]), at(t, four[1]), at(t, four[2]), at(t, four[3])});
-          },
-          stretch, 0.4f),
-      growing(
-          [&](const Transform& t) {
-            return quadric("diffuse(sphere, growing)", false, false, t * Transform::scale({0.5, 0.5, 0.5}));
-          },
-          growth, 0.6f),
-      moving(sky("infinite(latitude-longitude image, turning)", 12, 6, LightSampling::kComplete),
-             Transform::rotate(100, {1, -1, 2}), 0.7f),
-      moving(goniometric("goniometric(turning)"), turn, 0.3f),
+// A motion of the examples, under which they keep their size.
+Transform turn() { return Transform::translate({0.3, 0.2, -0.2}) * Transform::rotate(100, {1, -1, 2}); }
+// One that is not the same everywhere on them.
+Transform stretch() { return turn() * Transform::scale({1.6, 0.6, 1.2}); }
+
+LightExample stretching_triangle() {
+  const auto under = [](const Transform& t) {
+    const auto at = [&](double x, double y, double z) { return to_float(t.point({x, y, z})); };
+    return triangle("diffuse(triangle, two-sided, stretching)", true, false,
+                    {at(-1, -0.8, 0.1), at(1.2, -0.5, -0.1), at(0.1, 1.1, 0.2)});
   };
+  return growing(under, stretch(), 0.7f);
 }
 
-std::vector<LightExample> still_examples() {
+LightExample stretching_patch() {
+  const auto under = [](const Transform& t) {
+    const auto at = [&](double x, double y, double z) { return to_float(t.point({x, y, z})); };
+    return patch("diffuse(twisted patch, stretching)", false,
+                 {at(-0.6, -0.9, 0.4), at(0.8, -0.7, -0.5), at(-0.9, 0.5, -0.4), at(0.7, 0.6, 0.7)});
+  };
+  return growing(under, stretch(), 0.4f);
+}
+
+LightExample growing_ball() {
+  const auto under = [](const Transform& t) {
+    return quadric("diffuse(sphere, growing)", false, false, t * Transform::scale({0.5, 0.5, 0.5}));
+  };
+  return growing(under, turn() * Transform::scale({2, 2, 2}), 0.6f);
+}
+
+LightExample turning_sky() {
+  LightExample still = sky("infinite(latitude-longitude image, turning)", 12, 6, LightSampling::kComplete);
+  return moving(std::move(still), Transform::rotate(100, {1, -1, 2}), 0.7f);
+}
+
+std::vector<LightExample> make_examples() {
   const Transform half = Transform::scale({0.5, 0.5, 0.5});
   const Transform egg =
       Transform::translate({0.1, -0.2, 0.1}) * Transform::rotate(40, {1, 2, 3}) * Transform::scale({0.4, 0.9, -0.6});
@@ -202,11 +206,15 @@ std::vector<LightExample> still_examples() {
       quadric("diffuse(gutter, two-sided)", true, false, egg, {QuadricPart::Kind::kCylinder, 0.0f, 1.0f, 2.0f}),
       quadric("diffuse(disk)", false, false, half, {QuadricPart::Kind::kDisk, 0.0f, 1.0f}),
       quadric("diffuse(ring, two-sided)", true, true, egg, {QuadricPart::Kind::kDisk, 0.4f, 1.0f, 5.0f}),
+      stretching_triangle(),
+      stretching_patch(),
+      growing_ball(),
       {"infinite(constant)", Light(ConstantInfiniteLight{Spectrum::rgb(0.3f, 1.0f, 4.0f)}), nullptr, nullptr},
       sky("infinite(equal-area image)", 8, 8, LightSampling::kComplete),
       sky("infinite(equal-area image, compensated)", 8, 8, LightSampling::kCompensated),
       sky("infinite(latitude-longitude image)", 12, 6, LightSampling::kComplete),
       sky("infinite(latitude-longitude image, compensated)", 12, 6, LightSampling::kCompensated),
+      turning_sky(),
       portal("infinite(portal, equal-area image)", 16, 16),
       portal("infinite(portal, latitude-longitude image)", 32, 16),
       {"distant", Light(DistantLight{turned().x, Spectrum::rgb(3.0f, 2.0f, 1.0f)}), nullptr, nullptr},
@@ -216,6 +224,7 @@ std::vector<LightExample> still_examples() {
       spot("spot(hard edge)", 0.7f, 0.7f),
       spot("spot(wide)", 0.2f, -0.9f),
       goniometric("goniometric"),
+      moving(goniometric("goniometric(turning)"), turn(), 0.3f),
       projection(),
   };
 }
@@ -223,11 +232,7 @@ std::vector<LightExample> still_examples() {
 }  // namespace
 
 std::span<const LightExample> light_examples() {
-  static const std::vector<LightExample> examples = [] {
-    std::vector<LightExample> all = still_examples();
-    for (LightExample& e : moving_examples()) all.push_back(std::move(e));
-    return all;
-  }();
+  static const std::vector<LightExample> examples = make_examples();
   return examples;
 }
 

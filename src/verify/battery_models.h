@@ -1,5 +1,5 @@
-// The battery over the smaller families, each check over a model with its type erased, so that its own tests can feed it
-// faulty ones. A check is in the file battery_FAMILY.cpp; the results are judged.
+// The battery over the smaller families, each check over a model with its type erased, so that its own tests can feed
+// it faulty ones. A check is in the file battery_FAMILY.cpp; the results are judged.
 #pragma once
 
 #include <functional>

@@ -129,23 +129,23 @@ fault(spot-power-without-fade "the power of a spot light leaves out that its edg
 edit(lights/spot.h [[(1.0f - 0.5f * (cos_inner + cos_outer))]]
      [[(1.0f - (FAULT ? cos_outer : 0.5f * (cos_inner + cos_outer)))]])
 
-fault(emission-without-cosine "the flux of emitted rays leaves out the cosine at the surface" "${lights}")
+fault(emission-without-cosine "the flux of emitted rays leaves out the cosine at the surface" "Examples/LightBattery.*triangle*")
 edit(lights/diffuse_area.h [[s.cosine = dot(n, w);]] [[s.cosine = FAULT ? 1.0f : dot(n, w);]])
 
-fault(emission-side-for-free "the density of emission from both sides leaves out the choice between them" "${lights}")
+fault(emission-side-for-free "the density of emission from both sides leaves out the choice between them" "Examples/LightBattery.*triangle__two_sided*")
 edit(lights/diffuse_area.h [[emission.two_sided ? 0.5f * pdf_hemisphere_cosine]]
      [[emission.two_sided ? (FAULT ? 1.0f : 0.5f) * pdf_hemisphere_cosine]])
 
-fault(emission-disk-of-half-the-scene "rays of infinite lights enter through a disk as wide as half of the scene" "${lights}")
+fault(emission-disk-of-half-the-scene "rays of infinite lights enter through a disk as wide as half of the scene" "Examples/LightBattery.*infinite*")
 edit(lights/light.cpp [[frame.to_world({at.x, at.y, -1.0f}) * scene.radius]]
      [[frame.to_world({(FAULT ? 0.5f : 1.0f) * at.x, (FAULT ? 0.5f : 1.0f) * at.y, -1.0f}) * scene.radius]])
 
-fault(emission-disk-without-area "the density of rays of infinite lights leaves out how wide the scene is" "${lights}")
+fault(emission-disk-without-area "the density of rays of infinite lights leaves out how wide the scene is" "Examples/LightBattery.*infinite*")
 edit(lights/light.cpp [[return pdf_disk() / sqr(scene.radius);]]
      [[return pdf_disk() / (FAULT ? 1.0f : sqr(scene.radius));]])
 
 fault(emission-stretch-of-moving-lights "the density of emission leaves out how a moving light's area changes"
-      "Examples/LightBattery.*ing_*")
+      "Examples/LightBattery.*stretching*")
 edit(lights/diffuse_area.h [[s.pdf_position /= area_stretch(at->to_world, at->to_object, s.on_light.ng);]]
      [[s.pdf_position /= FAULT ? 1.0f : area_stretch(at->to_world, at->to_object, s.on_light.ng);]])
 
