@@ -101,14 +101,14 @@ size_t DirectionGrid::find(Vec3 w) const {
 }
 
 std::array<double, 4> DirectionGrid::integrate(size_t i, const std::function<std::array<double, 4>(Vec3)>& f,
-                                               double absolute, bool jumps) const {
+                                               double absolute, int splits) const {
   const auto integrand = [&f](double theta, double phi) {
     const double s = std::sin(theta);
     std::array<double, 4> v = f(to_float(Vec3d{s * std::cos(phi), s * std::sin(phi), std::cos(theta)}));
     for (double& x : v) x *= s;
     return v;
   };
-  return integrate_rect<4>(integrand, cells_[i], absolute, 1e-3, jumps ? 2 : 0);
+  return integrate_rect<4>(integrand, cells_[i], absolute, 1e-3, splits);
 }
 
 std::string DirectionGrid::describe_worst(const std::vector<double>& observed,

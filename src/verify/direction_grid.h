@@ -25,9 +25,10 @@ class DirectionGrid {
   size_t find(Vec3 w) const;
 
   // Integral over the solid angle of cell i of f, whose values are densities per solid angle. The error is below
-  // `absolute` + 1e-3 of the value, far below where f is smooth; if it jumps, say so.
+  // `absolute` + 1e-3 of the value, far below where f is smooth. Where it jumps, the cell is halved `splits` times
+  // before that is believed.
   std::array<double, 4> integrate(size_t i, const std::function<std::array<double, 4>(Vec3)>& f, double absolute,
-                                  bool jumps = false) const;
+                                  int splits = 0) const;
 
   // Observed against expected counts per cell: a map of the sphere (theta down, phi to the right) marking where more
   // (+, # beyond 5 sigma) or fewer (-, =) were found, and a table of the worst cells.

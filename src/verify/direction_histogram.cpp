@@ -8,6 +8,8 @@ namespace etd {
 
 namespace {
 constexpr double kMinExpected = 20.0;
+// The number of samples for which DirectionDensity::integration_error and two forced splits at jumps are enough.
+constexpr double kUsualSamples = 40000.0;
 }  // namespace
 
 void check_direction_density(const DirectionDensity& density, const std::string& where, size_t samples, uint64_t seed,
@@ -24,11 +26,13 @@ void check_direction_density(const DirectionDensity& density, const std::string&
     const auto wi = density.draw(numbers);
     (wi ? observed[grid.find(*wi)] : elsewhere) += 1.0;
   }
-  const double n = static_cast<double>(samples);
+  // More samples see smaller errors of the integrals.
+  const double n = static_cast<double>(samples), finer = std::max(1.0, std::sqrt(n / kUsualSamples));
+  const double integration_error = density.integration_error / finer;
+  const int splits = density.jumps ? 2 + static_cast<int>(std::ceil(std::log2(finer))) : 0;
   for (size_t i = 0; i < grid.cell_count(); ++i) {
     const auto cell = grid.integrate(
-        i, [&](Vec3 wi) { return std::array<double, 4>{density.pdf(wi)}; }, 0.1 * density.integration_error,
-        density.jumps);
+        i, [&](Vec3 wi) { return std::array<double, 4>{density.pdf(wi)}; }, 0.1 * integration_error, splits);
     expected.push_back(n * cell[0]);
     integral += cell[0];
   }
@@ -43,7 +47,7 @@ void check_direction_density(const DirectionDensity& density, const std::string&
   });
   if (worst) chi_square.set_map(grid.map(observed_directions, expected_directions));
   const double inside = 1.0 - elsewhere / n, q = std::clamp(integral, 0.0, 1.0);
-  const double z = (inside - integral) / std::sqrt(q * (1.0 - q) / n + sqr(density.integration_error));
+  const double z = (inside - integral) / std::sqrt(q * (1.0 - q) / n + sqr(integration_error));
   mass.add(z, normal_two_sided(z),
            [&] { return fmt::format("{}: integral {:.6f}, samples {:.6f}", where, integral, inside); });
 }
