@@ -44,9 +44,8 @@ struct CameraModel {
 };
 
 // Judged. The checks:
-// - rays are finite, of unit length, and the same for the same sample; those of a film point meet; film is spread as
-// the
-//   kind of camera promises;
+// - rays are finite, of unit length, and the same for the same sample; those of a film point meet; the film is spread
+//   as the kind of camera promises;
 // - those of check_importance().
 std::vector<CheckResult> check_camera(const CameraModel& model, const BatteryOptions& options);
 
