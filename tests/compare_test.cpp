@@ -112,6 +112,17 @@ TEST(StatisticalCompare, ABiasThatNoBlockShowsIsInTheHistogram) {
   EXPECT_LT(smallest(v.histograms), 1e-4);
 }
 
+TEST(Compare, AnImageIsEqualToItself) {
+  const Estimate a = noise({}, 1);
+  const Verdict v = compare(a, a);
+  EXPECT_TRUE(v.same);
+  EXPECT_EQ(v.p_value, 1);
+  for (const HistogramTest& h : v.histograms) {
+    EXPECT_GT(h.threshold, 0);
+    EXPECT_EQ(h.below, 0u);
+  }
+}
+
 TEST(Compare, OneBlockThatDiffersIsNamed) {
   const auto one_block = [](int x, int y) { return x / 8 == 2 && y / 8 == 1 ? 1.5 : 1.0; };
   const NoiseSettings s{.seed = 1}, other{.seed = 2};

@@ -144,7 +144,7 @@ HistogramTest test_histogram(const std::vector<RegionTest>& blocks, int channel)
   for (const double threshold : kThresholds) {
     const auto below = std::count_if(values.begin(), values.end(), [threshold](double p) { return p < threshold; });
     const double k = static_cast<double>(below), p = binomial_at_least(k, n, threshold);
-    if (p < h.p_value) h.p_value = p, h.threshold = threshold, h.below = static_cast<size_t>(below);
+    if (h.threshold == 0 || p < h.p_value) h.p_value = p, h.threshold = threshold, h.below = static_cast<size_t>(below);
   }
   h.p_value = std::min(1.0, h.p_value * static_cast<double>(std::size(kThresholds)));
   return h;
