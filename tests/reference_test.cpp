@@ -190,7 +190,7 @@ TEST(StatisticalReference, ColouredVeachAjar) { compare_coloured("veach-ajar", 1
 
 TEST(SlowReference, GreyCornellBox) { compare_grey("cornell-box", 512, 0.0005); }
 TEST(SlowReference, GreyVeachMis) { compare_grey("veach-mis", 2048, 0.002); }
-TEST(SlowReference, GreyVeachAjar) { compare_grey("veach-ajar", 1024, 0.002); }
+TEST(SlowReference, GreyVeachAjar) { compare_grey("veach-ajar", 1280, 0.002); }
 TEST(SlowReference, GreyTeapot) { compare_grey("teapot", 512, 0.001); }
 TEST(SlowReference, GreyClassroom) { compare_grey("classroom", 256, 0.01); }
 TEST(SlowReference, ColouredTeapot) { compare_coloured("teapot", 512, 0.002); }
