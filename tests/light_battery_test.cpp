@@ -36,8 +36,8 @@ TEST(LightExamples, CoverEveryLight) {
   EXPECT_EQ(kinds.size(), Light::kind_count());
 }
 
-// None of 30 seeds fails. It takes minutes: run by hand with --gtest_also_run_disabled_tests.
-TEST(LightBatterySeeds, DISABLED_NoFalseAlarmInThirty) {
+// None of 30 seeds fails.
+TEST(SlowLightBattery, NoFalseAlarmInThirtySeeds) {
   for (uint64_t seed = 1; seed <= 30; ++seed)
     for (const BatterySubject& s : light_subjects())
       for (const CheckResult& r : s.check(options_of_seed(seed)))
@@ -108,8 +108,8 @@ std::vector<CheckResult> emission(const LightModel& model, const LightBatteryOpt
   return results;
 }
 
-// None of 20 seeds fails. It takes half a minute: run by hand.
-TEST(LightBatterySeeds, DISABLED_NoFalseAlarmOfEmissionInTwenty) {
+// None of 20 seeds fails.
+TEST(SlowLightBattery, NoFalseAlarmOfEmissionInTwentySeeds) {
   for (uint64_t seed = 1; seed <= 20; ++seed)
     for (const LightExample& e : light_examples())
       for (const CheckResult& r :
