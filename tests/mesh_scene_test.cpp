@@ -1,6 +1,8 @@
 // Meshes in scenes: compressed files, the shapes offmesh and objmesh, and a mesh file as a scene of its own.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
 #include "io/gzip.h"
@@ -8,6 +10,7 @@
 #include "render/session.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
+#include "verify/film_mean.h"
 
 namespace etd {
 namespace {
@@ -107,6 +110,61 @@ TEST(MeshShapes, OffAndObjInTheLanguage) {
     EXPECT_EQ(c.description.shapes[2].use.find("alpha")->numbers, std::vector<double>{0.25});
     EXPECT_FALSE(c.description.shapes[3].use.find("alpha"));
   }
+}
+
+// Emission of 1 over the part of the picture that a mesh covers, in a window of 4 x 4 with pixels of 1/16.
+double covered(const std::string& shape, const std::filesystem::path& folder, std::string& messages) {
+  Compiled c;
+  c.description = read_pbrt_text(
+      "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 64 LookAt 1 1 3  1 1 0  0 1 0\n"
+      "Camera \"orthographic\" \"float screenwindow\" [ -2 2 -2 2 ] PixelFilter \"box\"\nWorldBegin\n"
+      "AreaLightSource \"diffuse\" \"bool twosided\" true Shape " +
+          shape,
+      "test", folder, c.diagnostics);
+  RenderOverrides overrides;
+  overrides.spp = 2;
+  c.prepared = prepare_render(c.description, overrides, c.diagnostics);
+  messages = c.messages();
+  if (!c.prepared) return -1;
+  RenderObserver nobody;
+  const FinishedRender done = run_render(*c.prepared, nobody);
+  return 16 * image_mean(done.film).mean();
+}
+
+TEST(MeshShapes, ConcaveFacesCoverThemselvesFromEveryFirstCorner) {
+  const TempFolder folder;
+  const std::array<const char*, 6> kL = {"2 1 0", "1 1 0", "1 2 0", "0 2 0", "0 0 0", "2 0 0"};
+  for (size_t first = 0; first < 6; ++first) {
+    std::string obj, off = "OFF\n6 1 0\n", corners;
+    std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (size_t i = 0; i < 6; ++i) {
+      obj += fmt::format("v {}\n", kL[(first + i) % 6]);
+      off += fmt::format("{}\n", kL[(first + i) % 6]);
+      ply += fmt::format("{}\n", kL[(first + i) % 6]);
+    }
+    folder.write("l.obj", obj + "f 1 2 3 4 5 6\n");
+    folder.write("l.off", off + "6 0 1 2 3 4 5\n");
+    folder.write("l.ply", ply + "6 0 1 2 3 4 5\n");
+    for (const char* shape : {"\"objmesh\" \"string filename\" \"l.obj\"", "\"offmesh\" \"string filename\" \"l.off\"",
+                              "\"plymesh\" \"string filename\" \"l.ply\""}) {
+      std::string messages;
+      EXPECT_NEAR(covered(shape, folder.path(), messages), 3.0, 1e-6) << shape << first;
+      EXPECT_EQ(messages, "");
+    }
+  }
+}
+
+TEST(MeshShapes, FacesOfTwoVerticesAreLeftOutWithOneNote) {
+  const TempFolder folder;
+  folder.write("a.off", "OFF\n5 4 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 0\n4 0 1 2 3\n2 0 4\n1 4\n0\n");
+  std::string messages;
+  EXPECT_NEAR(covered("\"offmesh\" \"string filename\" \"a.off\"", folder.path(), messages), 4.0, 1e-6);
+  EXPECT_NE(messages.find("note: a.off: left out: 3 faces of fewer than 3 different vertices, 1 vertex that no face "
+                          "uses"),
+            std::string::npos)
+      << messages;
 }
 
 TEST(MeshShapes, ProblemsInFilesAreErrorsAtTheirShape) {

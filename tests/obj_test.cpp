@@ -80,9 +80,10 @@ TEST(Obj, JoinsTheFacesOfAMaterial) {
 
 TEST(Obj, NotesWhatItLeavesOut) {
   const ObjResult r = read_text("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nmtllib gone.mtl\nl 1 2\nf 1/1 2 3\n");
-  EXPECT_EQ(r.notes, (std::vector<std::string>{"line 5: cannot read \"gone.mtl\"", "vertex colours are not used",
-                                               "corners without texture coordinates have (0, 0), as others have them",
-                                               "statements not used: l"}));
+  EXPECT_EQ(r.notes,
+            (std::vector<std::string>{
+                "line 5: cannot read \"gone.mtl\": the file does not exist", "vertex colours are not used",
+                "corners without texture coordinates have (0, 0), as others have them", "statements not used: l"}));
   const ObjResult bad = read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\nf 1 2 3\n",
                                   "Kd 1 1 1\nnewmtl a\nKd red\nNs -1\nillum 99\nmap_Kd\n");
   EXPECT_EQ(bad.notes, (std::vector<std::string>{"m.mtl: line 1: \"Kd\" stands before the first newmtl",
@@ -92,10 +93,45 @@ TEST(Obj, NotesWhatItLeavesOut) {
                                                  "m.mtl: line 6: map_Kd names no file"}));
 }
 
+TEST(Obj, LeavesOutWhatCannotBeDrawn) {
+  const ObjResult r = read_text(
+      "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 nan 1\nvn 0 0 1\nvt inf\nusemtl a\nf 2//1 3//2 4\nf 2 3\n"
+      "f 5\nf\nusemtl b\nf 2/1 3/1 3/1\nusemtl c\nf 2 2 4 4 5 5\n");
+  ASSERT_EQ(r.parts.size(), 2u) << r.problems.at(0);
+  EXPECT_EQ(r.parts[0].mesh.normals, (std::vector<Vec3>{{}, {0, 0, 1}, {}}));
+  EXPECT_EQ(r.parts[1].material, "c");
+  EXPECT_EQ(r.parts[1].mesh.positions, (std::vector<Point3d>{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(r.parts[1].mesh.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(r.notes,
+            std::vector<std::string>{"left out: 4 faces of fewer than 3 different vertices, 1 vertex that no face "
+                                     "uses, 1 normal that is not finite, 1 pair of texture coordinates that are not "
+                                     "finite"});
+}
+
+TEST(Obj, CutsPolygonsAndSaysWhichCrossThemselves) {
+  const std::string v = "v 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\n";
+  const ObjResult r = read_text(v + "f 1 2 3 4 5 6\nf 4 5 1 6\nf 4 5 6 1\n");
+  ASSERT_EQ(r.parts.size(), 1u) << r.problems.at(0);
+  const MeshData& m = r.parts[0].mesh;
+  ASSERT_EQ(m.triangles.size(), 4u + 2u + 2u);
+  double area = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const auto& t = m.triangles[i];
+    const Vec3d n = cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
+    EXPECT_GT(n.z, 0);
+    area += 0.5 * n.z;
+  }
+  EXPECT_DOUBLE_EQ(area, 3);
+  EXPECT_EQ(m.triangles[6], (std::array<uint32_t, 3>{3, 4, 5}));  // behind others that were cut
+  EXPECT_EQ(r.notes, std::vector<std::string>{"1 face crosses itself, and may be drawn wrongly; the first begins at "
+                                              "(0, 2, 0)"});
+}
+
 TEST(Obj, SaysWhatIsWrong) {
   const std::string v = kVertices;
-  expect_problem("", "the file has no faces");
-  expect_problem(v + "f 1 2\n", "line 5: a face of 2 corners, it needs 3");
+  const std::string none = "the mesh has no faces of at least 3 different vertices";
+  expect_problem("", none);
+  expect_problem(v + "f 1 2\nf 1 2 1\nf\n", none);
   expect_problem(v + "f 1 2 5\n", "line 5: vertex 5 does not exist: 4 have been read");
   expect_problem(v + "f 1 2 -5\n", "line 5: vertex -5 does not exist: 4 have been read");
   expect_problem(v + "f 1/1 2 3\n", "line 5: texture coordinate 1 does not exist: 0 have been read");
@@ -107,7 +143,7 @@ TEST(Obj, SaysWhatIsWrong) {
                        : "line 6: \"" + std::string(corner) +
                              "\" is no corner of a face; valid: v, v/vt, v//vn and v/vt/vn, counted from 1");
   expect_problem("v 1 2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: \"v\" has 2 numbers, it needs 3 to 7");
-  expect_problem("v 1 2 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: \"inf\" is not a finite number");
+  expect_problem("v 1 2 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: vertex 1: z is inf, not a finite number");
 }
 
 }  // namespace

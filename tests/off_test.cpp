@@ -81,7 +81,21 @@ TEST(Off, LeavesOutPointsAndEdges) {
   const MeshResult r = read_text("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0\n2 0 1\n3 0 1 2\n");
   ASSERT_TRUE(r.mesh);
   EXPECT_EQ(r.mesh->triangles.size(), 1u);
-  EXPECT_EQ(r.notes, std::vector<std::string>{"2 faces of fewer than 3 vertices are left out"});
+  EXPECT_EQ(r.notes, std::vector<std::string>{"left out: 2 faces of fewer than 3 different vertices"});
+}
+
+TEST(Off, LeavesOutWhatCannotBeDrawn) {
+  const MeshResult r = read_text(
+      "STNOFF\n5 2 0\ninf 0 0 0 0 1 0 0\n0 0 0 0 nan 1 0 0\n1 0 0 0 0 1 0 nan\n0 1 0 0 0 1 0 1\n9 9 9 0 0 1 0 0\n"
+      "4 1 1 2 3\n3 3 1 3\n");
+  ASSERT_TRUE(r.mesh) << r.problems.at(0);
+  EXPECT_EQ(r.mesh->positions, (std::vector<Point3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(r.mesh->normals.at(0), Vec3{});
+  EXPECT_EQ(r.mesh->uvs.at(1), Vec2{});
+  EXPECT_EQ(r.notes,
+            std::vector<std::string>{"left out: 1 face of fewer than 3 different vertices, 2 vertices that no face "
+                                     "uses, 1 normal that is not finite, 1 pair of texture coordinates that are not "
+                                     "finite"});
 }
 
 TEST(Off, SaysWhatIsWrong) {
@@ -95,7 +109,8 @@ TEST(Off, SaysWhatIsWrong) {
   expect_problem("OFF\n4 many 0\n", "line 2: \"many\" is not a number of faces");
   expect_problem("OFF\n0 0 0\n", "line 2: the mesh has no vertices");
   expect_problem("OFF\n4 1 0\n0 0 0\n1 0 x\n1 1 0\n0 1 0\n3 0 1 2\n", "line 4: vertex 1: \"x\" is not a number");
-  expect_problem("OFF\n4 1 0\n0 0 0\n1 0 nan\n1 1 0\n0 1 0\n3 0 1 2\n", "line 4: vertex 1: \"nan\" is not finite");
+  expect_problem("OFF\n4 1 0\n0 0 0\n1 0 nan\n1 1 0\n0 1 0\n3 0 1 2\n",
+                 "line 4: vertex 1: z is nan, not a finite number");
   expect_problem("OFF\n4 1 0\n" + vertices + "3 0 1 4\n",
                  "line 7: face 0: vertex 4 is out of range, the mesh has vertices 0 to 3");
   expect_problem("OFF\n5 1 0\n" + vertices + "3 0 1 2\n",
@@ -109,7 +124,7 @@ TEST(Off, SaysWhatIsWrong) {
                  "line 8: \"3\" follows the last face: are there 4 vertices and 1 faces, as the header says?");
   expect_problem("OFF\n4000000000 1 0\n0 0 0\n",
                  "line 3: the file ends in vertex 1, before the 4000000000 that the header counts");
-  expect_problem("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "the mesh has no faces of at least 3 vertices");
+  expect_problem("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "the mesh has no faces of at least 3 different vertices");
 }
 
 TEST(Off, ReadsTheSharedMeshes) {

@@ -25,9 +25,7 @@ constexpr Beginning kBeginnings[] = {
     {"glTF", {"a binary glTF scene", kScene}},
     {"BLENDER", {"a Blender file", "export it from Blender in the language of pbrt-v4"}},
     {"#usda", {"a USD scene", kScene}},
-    {"PXR-USDC", {"a USD scene", kScene}},
-    {"\xff\xfe", {"text in UTF-16", "save it as UTF-8"}},
-    {"\xfe\xff", {"text in UTF-16", "save it as UTF-8"}}};
+    {"PXR-USDC", {"a USD scene", kScene}}};
 
 // By the first word that is no comment.
 struct FirstWord {

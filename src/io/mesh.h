@@ -28,9 +28,11 @@ struct MeshResult {
   std::vector<std::string> notes;     // things left out that may surprise ("vertex colours are not used")
 };
 
-// All readers take gzip-compressed files too, and turn polygons into fans.
+// All readers take gzip-compressed files too, skip a byte-order mark, cut polygons into triangles (io/polygon.h) and
+// leave out with a note what cannot be drawn (io/mesh_faces.h).
 
-// PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements.
+// PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements; faces and triangle
+// strips.
 // Normals nx ny nz; texture coordinates u v, s t, texture_u texture_v or texture_s texture_t.
 MeshResult read_ply(const std::filesystem::path& path);
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "io/gzip.h"
 #include "io/obj.h"
+#include "io/text_file.h"
 #include "io/text_lines.h"
 
 namespace etd {
@@ -136,11 +136,10 @@ const ObjMaterial* ObjResult::find(const std::string& name) const {
   return it == materials.rend() ? nullptr : &*it;
 }
 
-bool read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result) {
-  const FileBytes file = read_file_uncompressed(path);
-  if (!file.error.empty()) return false;
-  MtlReader(file.bytes, path.filename().string(), folder, result).read();
-  return true;
+std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result) {
+  const FileBytes file = read_text_file(path);
+  if (file.error.empty()) MtlReader(file.bytes, path.filename().string(), folder, result).read();
+  return file.error;
 }
 
 }  // namespace etd

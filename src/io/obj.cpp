@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "core/hash.h"
-#include "io/gzip.h"
-#include "io/problem_list.h"
+#include "io/mesh_faces.h"
+#include "io/text_file.h"
 #include "io/text_lines.h"
 
 namespace etd {
@@ -31,7 +31,7 @@ struct PartBuilder {
   std::string material;
   std::vector<Corner> vertices;
   std::unordered_map<Corner, uint32_t, CornerHash> index_of;
-  std::vector<std::array<uint32_t, 3>> triangles;
+  FaceList faces;
 
   uint32_t vertex(const Corner& c) {
     const auto [it, is_new] = index_of.emplace(c, static_cast<uint32_t>(vertices.size()));
@@ -57,6 +57,7 @@ class ObjReader {
   void use_material(std::string name);
   void load_materials();
   MeshData finish(PartBuilder& part);
+  void count_vertices();
   bool numbers(size_t least, size_t most, std::array<double, 8>& values);
   void fail(const std::string& problem) { problems_.add(fmt::format("line {}: {}", lines_.line(), problem)); }
 
@@ -67,6 +68,9 @@ class ObjReader {
   std::vector<Point3d> positions_;
   std::vector<Vec2> uvs_;
   std::vector<Vec3> normals_;
+  UnfitPositions unfit_;
+  MeshLosses losses_;
+  std::vector<uint32_t> corners_;
   std::vector<PartBuilder> parts_;
   std::map<std::string, size_t> part_of_;
   size_t part_ = 0;
@@ -79,13 +83,14 @@ class ObjReader {
 ObjResult ObjReader::read() {
   use_material("");
   while (lines_.next(words_, true)) statement();
-  size_t faces = 0;
-  for (const PartBuilder& part : parts_) faces += part.triangles.size();
-  if (problems_.empty() && faces == 0) problems_.add("the file has no faces");
+  count_vertices();
   if (problems_.empty())
     for (PartBuilder& part : parts_)
-      if (!part.triangles.empty()) result_.parts.push_back({part.material, finish(part)});
+      if (MeshData mesh = finish(part); !mesh.triangles.empty())
+        result_.parts.push_back({part.material, std::move(mesh)});
+  if (problems_.empty() && result_.parts.empty()) problems_.add(kNoFaces);
   if (colours_) result_.notes.push_back("vertex colours are not used");
+  losses_.add_notes(result_.notes);
   if (no_uvs_) result_.notes.push_back("corners without texture coordinates have (0, 0), as others have them");
   if (!unused_.empty()) result_.notes.push_back(fmt::format("statements not used: {}", fmt::join(unused_, ", ")));
   result_.problems = problems_.take();
@@ -116,8 +121,8 @@ bool ObjReader::numbers(size_t least, size_t most, std::array<double, 8>& values
   values.fill(0);
   for (size_t i = 0; i < count; ++i) {
     const auto value = word_to_number(words_[i + 1]);
-    if (!value || !std::isfinite(static_cast<float>(*value))) {
-      fail(fmt::format("{} is not a finite number", in_quotes(words_[i + 1])));
+    if (!value) {
+      fail(fmt::format("{} is not a number", in_quotes(words_[i + 1])));
       return false;
     }
     values[i] = *value;
@@ -130,6 +135,7 @@ bool ObjReader::numbers(size_t least, size_t most, std::array<double, 8>& values
 void ObjReader::vertex() {
   std::array<double, 8> x{};
   numbers(3, 7, x);
+  unfit_.check({x[0], x[1], x[2]}, static_cast<uint32_t>(positions_.size()), lines_.line());
   positions_.push_back({x[0], x[1], x[2]});
   colours_ = colours_ || words_.size() > 5;
 }
@@ -137,13 +143,13 @@ void ObjReader::vertex() {
 void ObjReader::texture_coordinates() {
   std::array<double, 8> x{};
   numbers(1, 3, x);
-  uvs_.push_back({static_cast<float>(x[0]), static_cast<float>(x[1])});
+  uvs_.push_back(finite_uv({static_cast<float>(x[0]), static_cast<float>(x[1])}, losses_));
 }
 
 void ObjReader::normal() {
   std::array<double, 8> x{};
   numbers(3, 3, x);
-  normals_.push_back(to_float(Vec3d{x[0], x[1], x[2]}));
+  normals_.push_back(finite_normal(to_float(Vec3d{x[0], x[1], x[2]}), losses_));
 }
 
 // "v", "v/vt", "v//vn" or "v/vt/vn", counted from 1 or, when negative, backwards from what was read last.
@@ -176,18 +182,14 @@ bool ObjReader::corner(std::string_view word, Corner& c) {
 }
 
 void ObjReader::face() {
-  if (words_.size() < 4) return fail(fmt::format("a face of {} corners, it needs 3", words_.size() - 1));
   PartBuilder& part = parts_[part_];
-  std::array<uint32_t, 3> triangle{};
+  corners_.clear();
   for (size_t k = 1; k < words_.size(); ++k) {
     Corner c;
     if (!corner(words_[k], c)) return;
-    const uint32_t vertex = part.vertex(c);
-    if (k == 1) triangle[0] = vertex;
-    triangle[2] = vertex;
-    if (k > 2) part.triangles.push_back(triangle);
-    triangle[1] = vertex;
+    corners_.push_back(part.vertex(c));
   }
+  part.faces.add(corners_, losses_);
 }
 
 void ObjReader::use_material(std::string name) {
@@ -205,9 +207,18 @@ void ObjReader::load_materials() {
     std::replace(name.begin(), name.end(), '\\', '/');
     if (!loaded_.insert(name).second) continue;
     const std::filesystem::path file = name;
-    if (!read_mtl(folder_ / file, file.parent_path(), result_))
-      result_.notes.push_back(fmt::format("line {}: cannot read {}", lines_.line(), in_quotes(name)));
+    if (const std::string error = read_mtl(folder_ / file, file.parent_path(), result_); !error.empty())
+      result_.notes.push_back(fmt::format("line {}: cannot read {}: {}", lines_.line(), in_quotes(name), error));
   }
+}
+
+// Which vertices of the file its faces use, by their positions.
+void ObjReader::count_vertices() {
+  std::vector<bool> used(positions_.size());
+  for (const PartBuilder& part : parts_)
+    part.faces.for_each_corner([&](uint32_t corner) { used[static_cast<size_t>(part.vertices[corner][0])] = true; });
+  unfit_.report(positions_, used, 1, problems_);
+  losses_.unused_vertices = static_cast<size_t>(std::count(used.begin(), used.end(), false));
 }
 
 MeshData ObjReader::finish(PartBuilder& part) {
@@ -224,12 +235,13 @@ MeshData ObjReader::finish(PartBuilder& part) {
     if (any_uv) mesh.uvs.push_back(c[1] == kNone ? Vec2{} : uvs_[static_cast<size_t>(c[1])]);
     if (any_normal) mesh.normals.push_back(c[2] == kNone ? Vec3{} : normals_[static_cast<size_t>(c[2])]);
   }
-  mesh.triangles = std::move(part.triangles);
+  mesh.triangles = part.faces.take_triangles(mesh.positions, losses_);
+  drop_unused_vertices(mesh);  // corners of faces that were left out
   return mesh;
 }
 
 ObjResult read(const std::filesystem::path& path, bool materials) {
-  const FileBytes file = read_file_uncompressed(path);
+  const FileBytes file = read_text_file(path);
   if (file.error.empty()) return ObjReader(file.bytes, path.parent_path(), materials).read();
   ObjResult result;
   result.problems.push_back(file.error);

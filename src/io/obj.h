@@ -52,8 +52,8 @@ ObjResult read_obj(const std::filesystem::path& path);
 // All faces as one mesh, without materials.
 MeshResult read_obj_mesh(const std::filesystem::path& path);
 
-// Adds the materials of an MTL file. `folder` is its own, relative to that of the OBJ file. False when it can't be
-// read.
-bool read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result);
+// Adds the materials of an MTL file. `folder` is its own, relative to that of the OBJ file. Returns why it can't be
+// read, or an empty string.
+std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result);
 
 }  // namespace etd

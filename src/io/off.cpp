@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/gzip.h"
-#include "io/mesh.h"
-#include "io/problem_list.h"
+#include "io/mesh_faces.h"
+#include "io/text_file.h"
 #include "io/text_lines.h"
 
 namespace etd {
@@ -62,10 +61,13 @@ class OffReader {
   OffLayout layout_;
   size_t vertex_count_ = 0, face_count_ = 0;
   bool vertex_colours_ = false, face_colours_ = false;
-  size_t small_faces_ = 0;
   ProblemList problems_;
   std::vector<std::string> notes_;
   MeshData mesh_;
+  FaceList faces_;
+  std::vector<uint32_t> corners_;
+  UnfitPositions unfit_;
+  MeshLosses losses_;
 };
 
 bool OffReader::next_line() {
@@ -85,10 +87,10 @@ MeshResult OffReader::read() {
     read_vertices();
     if (problems_.empty()) read_faces();
   }
-  if (problems_.empty() && mesh_.triangles.empty()) problems_.add("the mesh has no faces of at least 3 vertices");
+  if (problems_.empty()) finish_mesh(mesh_, faces_, unfit_, losses_, problems_);
   if (vertex_colours_) notes_.push_back("vertex colours are not used");
   if (face_colours_) notes_.push_back("face colours are not used");
-  if (small_faces_ > 0) notes_.push_back(fmt::format("{} faces of fewer than 3 vertices are left out", small_faces_));
+  losses_.add_notes(notes_);
   MeshResult result;
   if (problems_.empty()) result.mesh = std::move(mesh_);
   result.problems = problems_.take();
@@ -138,8 +140,6 @@ bool OffReader::read_number(const char* what, size_t index, double& value) {
         fmt::format("the file ends in {} {}, before the {} that the header counts", what, index, vertex_count_));
   const auto number = word_to_number(word);
   if (!number) return fail(fmt::format("{} {}: {} is not a number", what, index, in_quotes(word)));
-  if (!std::isfinite(static_cast<float>(*number)))
-    return fail(fmt::format("{} {}: {} is not finite", what, index, in_quotes(word)));
   value = *number;
   return true;
 }
@@ -186,13 +186,14 @@ void OffReader::take_vertex(const std::vector<double>& values, size_t index) {
   if (layout_.homogeneous) {
     const double w = values[at++];
     p = {p.x / w, p.y / w, p.z / w};
-    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-      fail(fmt::format("vertex {} lies at infinity: its fourth coordinate is {}", index, w));
   }
+  unfit_.check(p, static_cast<uint32_t>(index), lines_.line());
   mesh_.positions.push_back(p);
-  if (layout_.normal) mesh_.normals.push_back(to_float(Vec3d{values[at], values[at + 1], values[at + 2]}));
+  if (layout_.normal)
+    mesh_.normals.push_back(finite_normal(to_float(Vec3d{values[at], values[at + 1], values[at + 2]}), losses_));
   if (layout_.texture)
-    mesh_.uvs.push_back({static_cast<float>(values[values.size() - 2]), static_cast<float>(values[values.size() - 1])});
+    mesh_.uvs.push_back(finite_uv(
+        {static_cast<float>(values[values.size() - 2]), static_cast<float>(values[values.size() - 1])}, losses_));
 }
 
 void OffReader::read_faces() {
@@ -223,7 +224,7 @@ bool OffReader::read_face(size_t index) {
                     "header says?",
                     index, in_quotes(word), vertex_count_));
   bool good = true;
-  std::array<uint32_t, 3> triangle{};
+  corners_.clear();
   for (int64_t k = 0; k < *count; ++k) {
     if (!next_word(word)) return fail(fmt::format("the file ends in face {} of {}", index, face_count_));
     const auto vertex = word_to_integer(word);
@@ -233,18 +234,16 @@ bool OffReader::read_face(size_t index) {
                               vertex_count_ - 1));
       continue;
     }
-    triangle[k == 0 ? 0 : 2] = static_cast<uint32_t>(*vertex);
-    if (k >= 2 && good) mesh_.triangles.push_back(triangle);
-    triangle[k == 0 ? 0 : 1] = static_cast<uint32_t>(*vertex);
+    corners_.push_back(static_cast<uint32_t>(*vertex));
   }
-  small_faces_ += *count < 3;
+  if (good) faces_.add(corners_, losses_);
   return true;
 }
 
 }  // namespace
 
 MeshResult read_off(const std::filesystem::path& path) {
-  const FileBytes file = read_file_uncompressed(path);
+  const FileBytes file = read_text_file(path);
   if (file.error.empty()) return OffReader(file.bytes).read();
   MeshResult result;
   result.problems.push_back(file.error);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/gzip.h"
-#include "io/mesh.h"
+#include "io/mesh_faces.h"
 #include "io/ply_body.h"
 #include "io/ply_header.h"
+#include "io/text_file.h"
 
 namespace etd {
 namespace {
@@ -39,21 +39,29 @@ class PlyMeshReader {
  private:
   void plan_vertices();
   void plan_faces();
-  void check_strips();
+  PlyPlan plan_indices(const PlyElement& element);
   void note_unused(const PlyPlan& plan);
   bool read_elements(PlyBody& body);
   void take_vertex(const PlyBody& body, const PlyValues& values, uint64_t index);
   void take_face(const PlyBody& body, const PlyValues& values, uint64_t index);
-  // Whether the wanted values of a vertex are finite as floats; problems where not.
-  bool finite(const PlyBody& body, const PlyValues& values, uint64_t index);
+  void take_strips(const PlyBody& body, const PlyValues& values, uint64_t index);
+  bool is_vertex(double index) const {
+    return index >= 0 && index < static_cast<double>(vertices_.element->count) && index == std::floor(index);
+  }
+  void no_vertex(const PlyBody& body, const PlyElement& element, uint64_t index, double vertex);
 
   std::string_view file_;
   ProblemList problems_;
   std::vector<std::string> notes_;
   PlyHeader header_;
-  PlyPlan vertices_{}, faces_{};
+  PlyPlan vertices_{}, faces_{}, strips_{};
   bool has_normals_ = false, has_uvs_ = false;
   MeshData mesh_;
+  FaceList face_list_;
+  double strip_end_ = -1;
+  std::vector<uint32_t> corners_;
+  UnfitPositions unfit_;
+  MeshLosses losses_;
 };
 
 MeshResult PlyMeshReader::read() {
@@ -61,9 +69,9 @@ MeshResult PlyMeshReader::read() {
     header_ = std::move(*header);
     plan_vertices();
     plan_faces();
-    check_strips();
     for (const PlyElement& element : header_.elements) {
-      if (&element != vertices_.element && &element != faces_.element && element.count > 0) {
+      if (&element != vertices_.element && &element != faces_.element && &element != strips_.element &&
+          element.count > 0) {
         notes_.push_back(fmt::format("element {} is not used", in_quotes(element.name)));
       }
     }
@@ -73,6 +81,8 @@ MeshResult PlyMeshReader::read() {
         if (std::string extra = body->leftover(); !extra.empty()) problems_.add(std::move(extra));
       }
     }
+    if (problems_.empty()) finish_mesh(mesh_, face_list_, unfit_, losses_, problems_);
+    losses_.add_notes(notes_);
   }
   MeshResult result;
   if (problems_.empty()) result.mesh = std::move(mesh_);
@@ -111,31 +121,36 @@ void PlyMeshReader::plan_vertices() {
 }
 
 void PlyMeshReader::plan_faces() {
-  const PlyElement* element = header_.find("face");
-  if (element == nullptr) return problems_.add("the file has no element \"face\": a cloud of points is not a mesh");
-  if (element->count == 0) problems_.add(fmt::format("line {}: the mesh has no faces", element->line));
-  faces_ = skip_all(*element);
+  const PlyElement* faces = header_.find("face");
+  const PlyElement* strips = header_.find("tristrips");
+  if (strips == nullptr) strips = header_.find("tristrip");
+  if (faces == nullptr && strips == nullptr)
+    return problems_.add("the file has no element \"face\": a cloud of points is not a mesh");
+  const PlyElement& any = faces ? *faces : *strips;
+  if ((!faces || faces->count == 0) && (!strips || strips->count == 0))
+    problems_.add(fmt::format("line {}: the mesh has no faces", any.line));
+  if (faces) faces_ = plan_indices(*faces);
+  if (!strips) return;
+  strips_ = plan_indices(*strips);
+  for (size_t i = 0; i < strips_.slots.size(); ++i)
+    if (strips_.slots[i] != PlyPlan::kSkip) strip_end_ = ply_all_bits(strips->properties[i].type);
+}
+
+PlyPlan PlyMeshReader::plan_indices(const PlyElement& element) {
+  PlyPlan plan = skip_all(element);
   bool found = false;
   for (const std::string_view name : kIndexNames) {
-    const PlyProperty* property = element->find(name);
+    const PlyProperty* property = element.find(name);
     if (found || property == nullptr || !property->count_type) continue;
-    want(faces_, name, 0);
+    want(plan, name, 0);
     found = true;
   }
   if (!found) {
-    problems_.add(
-        fmt::format("line {}: element \"face\" has no list \"vertex_indices\" or \"vertex_index\"", element->line));
+    problems_.add(fmt::format("line {}: element {} has no list \"vertex_indices\" or \"vertex_index\"", element.line,
+                              in_quotes(element.name)));
   }
-  note_unused(faces_);
-}
-
-void PlyMeshReader::check_strips() {
-  for (const char* name : {"tristrips", "tristrip"}) {
-    const PlyElement* strips = header_.find(name);
-    if (strips == nullptr || strips->count == 0) continue;
-    problems_.add(fmt::format("line {}: triangle strips ({}) are not supported, only element \"face\"", strips->line,
-                              in_quotes(name)));
-  }
+  note_unused(plan);
+  return plan;
 }
 
 void PlyMeshReader::note_unused(const PlyPlan& plan) {
@@ -162,19 +177,21 @@ bool PlyMeshReader::read_elements(PlyBody& body) {
       return false;
     }
     const bool is_vertex = &element == vertices_.element, is_face = &element == faces_.element;
-    const PlyPlan plan = is_vertex ? vertices_ : (is_face ? faces_ : skip_all(element));
+    const bool is_strip = &element == strips_.element;
+    const PlyPlan plan = is_vertex ? vertices_ : is_face ? faces_ : is_strip ? strips_ : skip_all(element);
     if (is_vertex) {
       mesh_.positions.reserve(element.count);
       if (has_normals_) mesh_.normals.reserve(element.count);
       if (has_uvs_) mesh_.uvs.reserve(element.count);
     } else if (is_face) {
-      mesh_.triangles.reserve(element.count);
+      face_list_.reserve(element.count);
     }
     for (uint64_t i = 0; i < element.count; ++i) {
       const PlyStep step = body.read(plan, values);
       if (step == PlyStep::kDone) {
         if (is_vertex) take_vertex(body, values, i);
         if (is_face) take_face(body, values, i);
+        if (is_strip) take_strips(body, values, i);
         continue;
       }
       problems_.add(fmt::format("{} of {}: {}", body.place(element, i), element.count, body.error()));
@@ -184,53 +201,63 @@ bool PlyMeshReader::read_elements(PlyBody& body) {
   return true;
 }
 
-bool PlyMeshReader::finite(const PlyBody& body, const PlyValues& values, uint64_t index) {
-  bool all = true;
-  for (size_t i = 0; i < vertices_.slots.size(); ++i) {
-    if (vertices_.slots[i] == PlyPlan::kSkip) continue;
-    const double value = values.scalars[static_cast<size_t>(vertices_.slots[i])];
-    if (std::isfinite(static_cast<float>(value))) continue;
-    problems_.add(fmt::format("{}: {} is {}, not a finite number", body.place(*vertices_.element, index),
-                              vertices_.element->properties[i].name, value));
-    all = false;
-  }
-  return all;
-}
-
 void PlyMeshReader::take_vertex(const PlyBody& body, const PlyValues& values, uint64_t index) {
-  if (!finite(body, values, index)) return;
   const auto& v = values.scalars;
   const auto as_float = [&v](int slot) { return static_cast<float>(v[static_cast<size_t>(slot)]); };
   mesh_.positions.push_back({v[0], v[1], v[2]});
-  if (has_normals_) mesh_.normals.push_back({as_float(kNormal), as_float(kNormal + 1), as_float(kNormal + 2)});
-  if (has_uvs_) mesh_.uvs.push_back({as_float(kUv), as_float(kUv + 1)});
+  unfit_.check(mesh_.positions.back(), static_cast<uint32_t>(index), body.line());
+  if (has_normals_)
+    mesh_.normals.push_back(finite_normal({as_float(kNormal), as_float(kNormal + 1), as_float(kNormal + 2)}, losses_));
+  if (has_uvs_) mesh_.uvs.push_back(finite_uv({as_float(kUv), as_float(kUv + 1)}, losses_));
+}
+
+void PlyMeshReader::no_vertex(const PlyBody& body, const PlyElement& element, uint64_t index, double vertex) {
+  problems_.add(fmt::format("{}: vertex index {} is out of range, the mesh has vertices 0 to {}",
+                            body.place(element, index), vertex, vertices_.element->count - 1));
 }
 
 void PlyMeshReader::take_face(const PlyBody& body, const PlyValues& values, uint64_t index) {
-  const uint64_t vertex_count = vertices_.element->count;
-  const std::vector<double>& corners = values.list;
-  if (corners.size() < 3) {
-    return problems_.add(
-        fmt::format("{}: has {} vertices, a face needs 3", body.place(*faces_.element, index), corners.size()));
+  corners_.clear();
+  for (const double corner : values.list) {
+    if (is_vertex(corner))
+      corners_.push_back(static_cast<uint32_t>(corner));
+    else
+      no_vertex(body, *faces_.element, index, corner);
   }
-  bool good = true;
-  for (const double corner : corners) {
-    if (corner >= 0 && corner < static_cast<double>(vertex_count) && corner == std::floor(corner)) continue;
-    problems_.add(fmt::format("{}: vertex index {} is out of range, the mesh has vertices 0 to {}",
-                              body.place(*faces_.element, index), corner, vertex_count - 1));
-    good = false;
+  if (corners_.size() == values.list.size()) face_list_.add(corners_, losses_);
+}
+
+// Each vertex makes a triangle with the two before it, whose order alternates so that all face the same way; -1 begins
+// the next strip. Triangles of two equal corners are how strips are joined, and no loss.
+void PlyMeshReader::take_strips(const PlyBody& body, const PlyValues& values, uint64_t index) {
+  corners_.clear();
+  const auto end_strip = [this] {
+    losses_.small_faces += corners_.size() == 1 || corners_.size() == 2;
+    for (size_t i = 2; i < corners_.size(); ++i) {
+      const uint32_t a = corners_[i - 2], b = corners_[i - 1], c = corners_[i];
+      if (a == b || b == c || c == a) continue;
+      if (i % 2 == 0)
+        face_list_.add_triangle(a, b, c);
+      else
+        face_list_.add_triangle(b, a, c);
+    }
+    corners_.clear();
+  };
+  for (const double corner : values.list) {
+    if (is_vertex(corner))
+      corners_.push_back(static_cast<uint32_t>(corner));
+    else if (corner == strip_end_)
+      end_strip();
+    else
+      no_vertex(body, *strips_.element, index, corner);
   }
-  if (!good) return;
-  for (size_t i = 2; i < corners.size(); ++i) {
-    mesh_.triangles.push_back(
-        {static_cast<uint32_t>(corners[0]), static_cast<uint32_t>(corners[i - 1]), static_cast<uint32_t>(corners[i])});
-  }
+  end_strip();
 }
 
 }  // namespace
 
 MeshResult read_ply(const std::filesystem::path& path) {
-  const FileBytes file = read_file_uncompressed(path);
+  const FileBytes file = read_text_file(path);
   if (file.error.empty()) return PlyMeshReader(file.bytes).read();
   MeshResult result;
   result.problems.push_back(file.error);

@@ -44,9 +44,7 @@ class BinaryBody final : public PlyBody {
 
   PlyStep read(const PlyPlan& plan, PlyValues& values) override { return read_properties(*this, plan, values); }
 
-  std::string place(const PlyElement& element, uint64_t index) const override {
-    return fmt::format("{} {}", element.name, index);
-  }
+  int line() const override { return 0; }
 
   double least_bytes(const PlyElement& element) const override {
     uint64_t bytes = 0;
@@ -160,9 +158,7 @@ class AsciiBody final : public PlyBody {
     return PlyStep::kBad;
   }
 
-  std::string place(const PlyElement& element, uint64_t index) const override {
-    return fmt::format("line {}: {} {}", line_, element.name, index);
-  }
+  int line() const override { return line_; }
 
   // Each value takes a character and a separator.
   double least_bytes(const PlyElement& element) const override {

@@ -34,8 +34,12 @@ class PlyBody {
   virtual ~PlyBody() = default;
   // Reads the next element of the file.
   virtual PlyStep read(const PlyPlan& plan, PlyValues& values) = 0;
-  // Where the element read last stands: "line 12: vertex 3" in text, "vertex 3" in binary, counted from 0.
-  virtual std::string place(const PlyElement& element, uint64_t index) const = 0;
+  // The line of the element read last, 0 in binary.
+  virtual int line() const = 0;
+  // Where that element stands: "line 12: vertex 3" in text, "vertex 3" in binary, counted from 0.
+  std::string place(const PlyElement& element, uint64_t index) const {
+    return fmt::format("{}{} {}", line() > 0 ? fmt::format("line {}: ", line()) : "", element.name, index);
+  }
   // The least number of bytes that all elements of this kind take.
   virtual double least_bytes(const PlyElement& element) const = 0;
   virtual size_t bytes_left() const = 0;

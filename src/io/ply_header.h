@@ -19,6 +19,11 @@ constexpr uint64_t ply_type_bytes(PlyType type) {
   constexpr uint64_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
   return kBytes[static_cast<int>(type)];
 }
+// The value of an integer type that has all bits set: -1, or what -1 becomes in an unsigned type.
+constexpr double ply_all_bits(PlyType type) {
+  const bool is_unsigned = type == PlyType::kUint8 || type == PlyType::kUint16 || type == PlyType::kUint32;
+  return is_unsigned ? static_cast<double>((uint64_t{1} << (8 * ply_type_bytes(type))) - 1) : -1.0;
+}
 constexpr bool is_floating(PlyType type) { return type == PlyType::kFloat32 || type == PlyType::kFloat64; }
 
 struct PlyProperty {

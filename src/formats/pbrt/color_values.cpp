@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "formats/pbrt/tokenizer.h"
-#include "io/file.h"
+#include "io/text_file.h"
 #include "spectrum/named.h"
 
 namespace etd::pbrt {
@@ -32,7 +32,7 @@ void convert_rgb(Param& p, ColorRole role, ColorSpace space, Diagnostics& diagno
 
 // Pairs of a wavelength in nm and a value, as text with # comments.
 void read_spectrum_file(Param& p, const std::filesystem::path& folder, Diagnostics& diagnostics) {
-  const FileBytes file = read_file(folder / p.strings[0]);
+  const FileBytes file = read_text_file(folder / p.strings[0]);
   const auto fail = [&](const std::string& why) {
     diagnostics.error(p.value_loc, fmt::format("cannot read spectrum \"{}\": {}", p.strings[0], why),
                       fmt::format("valid: a file of wavelengths and values, or one of {}", named_spectra()));

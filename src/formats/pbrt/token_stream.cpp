@@ -7,6 +7,7 @@
 
 #include "formats/foreign.h"
 #include "io/gzip.h"
+#include "io/text_file.h"
 
 namespace etd::pbrt {
 
@@ -42,6 +43,8 @@ bool is_binary(std::string_view text) { return text.substr(0, 4096).find('\0') !
 }  // namespace
 
 int32_t TokenStream::push_text(std::string text, const std::string& name) {
+  if (const std::string problem = strip_byte_order_mark(text); !problem.empty())
+    diagnostics_.error({}, fmt::format("the file \"{}\": {}", name, problem));
   const int32_t source = diagnostics_.sources().add(name, std::move(text));
   files_.push_back({Tokenizer(source, diagnostics_), fs::path(), false});
   return source;
@@ -82,6 +85,10 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
         return -1;
       }
       bytes.text = std::move(inside.bytes);
+    }
+    if (const std::string problem = strip_byte_order_mark(bytes.text); !problem.empty()) {
+      diagnostics_.error(loc, fmt::format("the file \"{}\": {}", path.string(), problem));
+      return -1;
     }
     if (const ForeignFormat foreign = find_foreign_format(bytes.text); !foreign.what.empty()) {
       diagnostics_.error(loc, fmt::format("the file \"{}\" is {}, not a pbrt scene", path.string(), foreign.what),

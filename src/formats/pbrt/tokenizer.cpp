@@ -51,10 +51,7 @@ std::string Token::value() const {
 }
 
 Tokenizer::Tokenizer(int32_t file, Diagnostics& diagnostics)
-    : text_(diagnostics.sources().text(file)), diagnostics_(diagnostics), file_(file) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text_.substr(0, 3) == kByteOrderMark) at_ = 3;
-}
+    : text_(diagnostics.sources().text(file)), diagnostics_(diagnostics), file_(file) {}
 
 SourceLoc Tokenizer::location(size_t begin, size_t end) const {
   return {file_, line_, static_cast<int32_t>(begin - line_start_) + 1, static_cast<int32_t>(end - begin)};
