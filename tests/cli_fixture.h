@@ -33,9 +33,11 @@ struct Finished {
 // The program in a folder of its own.
 class Cli : public ::testing::Test {
  protected:
-  pid_t start(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path().string() + "' && exec '" ETENDUE_BINARY "' " + arguments +
-                                " >'" + log_.path().string() + "/out' 2>'" + log_.path().string() + "/err'";
+  pid_t start(const std::string& arguments) const { return start_shell("exec \"$ETENDUE\" " + arguments); }
+  // A line of shell in which $ETENDUE is the program.
+  pid_t start_shell(const std::string& line) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && ETENDUE='" ETENDUE_BINARY "' && exec >'" +
+                                log_.path().string() + "/out' 2>'" + log_.path().string() + "/err' && " + line;
     const char* argv[] = {"sh", "-c", command.c_str(), nullptr};
     pid_t pid = -1;
     EXPECT_EQ(posix_spawn(&pid, "/bin/sh", nullptr, nullptr, const_cast<char* const*>(argv), environ), 0);
@@ -48,6 +50,7 @@ class Cli : public ::testing::Test {
             text(log_.path() / "err")};
   }
   Finished run(const std::string& arguments) const { return finish(start(arguments)); }
+  Finished run_shell(const std::string& line) const { return finish(start_shell(line)); }
   static std::string text(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

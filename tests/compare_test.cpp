@@ -208,8 +208,7 @@ TEST(Compare, CorrectionsByHand) {
 }
 
 LayeredImage film_image(const Film& film, int spp) {
-  LayeredImage image = make_layers(film);
-  add_replicate_layers(film, image);
+  LayeredImage image = make_layers(film, true);
   image.metadata = {{"etendue:spp", spp}, {"etendue:replicates", static_cast<int>(film.settings().replicates)}};
   return image;
 }

@@ -238,7 +238,7 @@ TEST(Image, RefusesTruncatedFiles) {
   for (const char* name : {"a.png", "a.jpg", "a.hdr", "a.pfm", "a.exr"}) {
     const std::filesystem::path path = folder.path() / name;
     if (is_layered_path(path)) {
-      ASSERT_EQ(write_layers(path, {size, size, 0, 0, size, size, {"R", "G", "B"}, rgb, {}}), "");
+      ASSERT_EQ(write_layers(path, LayeredImage{{size, size, 0, 0, size, size, {"R", "G", "B"}, {}}, rgb}), "");
     } else {
       ASSERT_EQ(write_rgb(path, size, size, rgb), "");
     }

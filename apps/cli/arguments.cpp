@@ -1,4 +1,5 @@
 #include "arguments.h"
+#include "printing.h"
 
 #include <fmt/format.h>
 
@@ -139,6 +140,6 @@ SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {
   return {};
 }
 
-void print_diagnostics(const Diagnostics& diagnostics) { fmt::print(stderr, "{}", diagnostics.format_all()); }
+void print_diagnostics(const Diagnostics& diagnostics) { tell("{}", diagnostics.format_all()); }
 
 }  // namespace etd::cli

@@ -3,6 +3,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "printing.h"
 #include "render/session.h"
 
 namespace etd::cli {
@@ -18,7 +19,7 @@ void add_check(CLI::App& app, Run& run) {
       const auto prepared = prepare_render(load_scene(args->scene, diagnostics), args->overrides, diagnostics);
       print_diagnostics(diagnostics);
       if (!prepared) return kBadInput;
-      fmt::print("{}: no problems\n", args->scene);
+      answer("{}: no problems\n", args->scene);
       return kOk;
     };
   });

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "formats/pbrt/manual.h"
+#include "printing.h"
 #include "render/registry.h"
 
 namespace etd::cli {
@@ -26,10 +27,9 @@ std::string letters(std::string_view text) {
 }
 
 int unknown(std::string_view what, std::string_view word, const std::vector<std::string_view>& valid) {
-  fmt::print(stderr, "etendue: there is no {} \"{}\"\n", what, word);
-  if (const std::string_view near = nearest_name(word, valid); !near.empty())
-    fmt::print(stderr, "  did you mean \"{}\"?\n", near);
-  fmt::print(stderr, "  valid: {}\n", fmt::join(valid, ", "));
+  tell("etendue: there is no {} \"{}\"\n", what, word);
+  if (const std::string_view near = nearest_name(word, valid); !near.empty()) tell("  did you mean \"{}\"?\n", near);
+  tell("  valid: {}\n", fmt::join(valid, ", "));
   return kBadInput;
 }
 
@@ -37,21 +37,21 @@ void list(Family family, int indent) {
   size_t width = 0;
   for (const ModelDecl* model : all_models(family)) width = std::max(width, model->name.size());
   for (const ModelDecl* model : all_models(family))
-    fmt::print("{:{}}{:{}}  {}\n", "", indent, model->name, width, model->doc);
+    answer("{:{}}{:{}}  {}\n", "", indent, model->name, width, model->doc);
 }
 
 int describe_models(const Arguments& args) {
   if (args.markdown) {
-    fmt::print("{}", pbrt_coverage_markdown());
+    answer("{}", pbrt_coverage_markdown());
     return kOk;
   }
   if (args.family.empty()) {
     for (Family family : kAllFamilies) {
-      fmt::print("{}\n", family_name(family));
+      answer("{}\n", family_name(family));
       list(family, 2);
-      fmt::print("\n");
+      answer("\n");
     }
-    fmt::print("`etendue describe FAMILY NAME` shows the parameters of one of them.\n");
+    answer("`etendue describe FAMILY NAME` shows the parameters of one of them.\n");
     return kOk;
   }
   std::vector<std::string_view> names;
@@ -60,7 +60,7 @@ int describe_models(const Arguments& args) {
     if (letters(family_name(family)) != letters(args.family)) continue;
     if (args.name.empty()) return list(family, 0), kOk;
     if (const ModelDecl* model = find_any_model(family, args.name)) {
-      fmt::print("{}", describe(*model));
+      answer("{}", describe(*model));
       return kOk;
     }
     std::vector<std::string_view> models;

@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "io/file.h"
+#include "printing.h"
 #include "verify/difference.h"
 
 namespace etd::cli {
@@ -32,7 +33,7 @@ constexpr const char* kExamples =
     "(a picture of one layer, .png, .hdr, .pfm; only identical ones are called equal then).";
 
 int fail(const std::string& message) {
-  fmt::print(stderr, "etendue: {}\n", message);
+  tell("etendue: {}\n", message);
   return kFailed;
 }
 
@@ -43,26 +44,22 @@ int diff(const Arguments& args) {
   if (!result.difference) return fail(result.error);
   const Difference& difference = *result.difference;
   if (args.json == "-")
-    fmt::print("{}", difference_json(difference));
+    answer("{}", difference_json(difference));
   else
-    fmt::print("{}", difference_text(difference));
+    answer("{}", difference_text(difference));
   if (!args.json.empty() && args.json != "-")
     if (const std::string problem = write_file(args.json, difference_json(difference)); !problem.empty())
-      return fail(fmt::format("cannot write {}: {}", args.json, problem));
+      return fail(problem);
   if (!args.html.empty()) {
     if (const std::string problem = write_difference_page(difference, args.html, args.metrics.exposure);
         !problem.empty())
       return fail(problem);
-    fmt::print(args.json == "-" ? stderr : stdout, "{}\n", (std::filesystem::path(args.html) / "index.html").string());
+    const std::string page = (std::filesystem::path(args.html) / "index.html").string();
+    args.json == "-" ? tell("{}\n", page) : answer("{}\n", page);
   }
-  switch (answer(difference)) {
-    case Answer::kSame:
-      return kSame;
-    case Answer::kDifferent:
-      return kDiffer;
-    default:
-      return kNoVerdict;
-  }
+  const Answer verdict = etd::answer(difference);
+  const int code = verdict == Answer::kSame ? kSame : verdict == Answer::kDifferent ? kDiffer : kNoVerdict;
+  return code_after_answers(kSame, kFailed) == kSame ? code : kFailed;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "printing.h"
 #include "render/provenance.h"
 #include "scene/scene.h"
 
@@ -34,7 +35,7 @@ void print_info(const PreparedRender& prepared) {
   const Scene& scene = *prepared.scene;
   const SceneSummary& summary = scene.summary;
   const RenderSettings& s = prepared.settings;
-  const auto row = [](const char* name, const std::string& text) { fmt::print("{:<12}{}\n", name, text); };
+  const auto row = [](const char* name, const std::string& text) { answer("{:<12}{}\n", name, text); };
   row("image",
       fmt::format("{}x{}, {} spp, {} replicates, {}", s.width, s.height, s.spp, s.replicates, s.integrator.model));
   row("shapes", counts_text(summary.shapes));
@@ -49,7 +50,7 @@ void print_info(const PreparedRender& prepared) {
     row("bounds", "empty");
   else
     row("bounds", fmt::format("{} to {} m", triple(summary.bounds.lo), triple(summary.bounds.hi)));
-  fmt::print("memory\n");
+  answer("memory\n");
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
   const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
   const size_t film = Film::bytes_for(film_settings(s));
@@ -59,20 +60,20 @@ void print_info(const PreparedRender& prepared) {
   for (const auto& [name, bytes] :
        {std::pair("geometry", geometry), std::pair("accelerator", accelerator), std::pair("textures", textures),
         std::pair("lights", lights), std::pair("film", film)})
-    fmt::print("  {:<12}{}\n", name, bytes_text(bytes));
-  fmt::print("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + lights + film));
+    answer("  {:<12}{}\n", name, bytes_text(bytes));
+  answer("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + lights + film));
 }
 
 // What an image knows of itself, and a warning when it is marked.
 int print_image_info(const std::string& path) {
   const LayersResult read = read_layers(path);
   if (!read.image) {
-    fmt::print(stderr, "etendue: {}: {}\n", path, read.error);
+    tell("etendue: {}: {}\n", path, read.error);
     return kBadInput;
   }
   const LayeredImage& image = *read.image;
-  fmt::print("{:<26}{}x{} at {},{} of {}x{}\n{:<26}{}\n", "pixels", image.width, image.height, image.x, image.y,
-             image.full_width, image.full_height, "channels", fmt::join(image.channels, " "));
+  answer("{:<26}{}x{} at {},{} of {}x{}\n{:<26}{}\n", "pixels", image.width, image.height, image.x, image.y,
+         image.full_width, image.full_height, "channels", fmt::join(image.channels, " "));
   constexpr std::string_view kOurs = "etendue:";
   std::map<std::string, std::string> entries;
   for (const auto& [name, value] : image.metadata)
@@ -81,10 +82,9 @@ int print_image_info(const std::string& path) {
   if (const auto provenance = read_provenance(image))
     entries["strongest"] =
         fmt::format("{} samples remembered (etendue replay {} --fireflies 10)", provenance->strongest.size(), path);
-  for (const auto& [name, text] : entries) fmt::print("{:<26}{}\n", name, text);
+  for (const auto& [name, text] : entries) answer("{:<26}{}\n", name, text);
   if (const auto invalid = entries.find("invalid_samples"); invalid != entries.end() && invalid->second != "none")
-    fmt::print(stderr, "etendue: warning: {}: samples were invalid ({}) and were taken for black\n", path,
-               invalid->second);
+    tell("etendue: warning: {}: samples were invalid ({}) and were taken for black\n", path, invalid->second);
   return kOk;
 }
 

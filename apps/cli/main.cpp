@@ -2,15 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "commands.h"
 #include "params/diagnostics.h"
+#include "printing.h"
 #include "render/version.h"
 
 namespace {
@@ -36,15 +37,34 @@ bool report_unknown_command(const CLI::App& app, const char* word) {
   if (std::find(names.begin(), names.end(), word) != names.end()) return false;
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string_view near = etd::nearest_name(word, views);
-  fmt::print(stderr, "etendue: there is no command \"{}\"\n", word);
-  if (!near.empty()) fmt::print(stderr, "  did you mean \"{}\"?\n", near);
-  fmt::print(stderr, "  valid: {}\n", fmt::join(names, ", "));
+  etd::cli::tell("etendue: there is no command \"{}\"\n", word);
+  if (!near.empty()) etd::cli::tell("  did you mean \"{}\"?\n", near);
+  etd::cli::tell("  valid: {}\n", fmt::join(names, ", "));
   return true;
+}
+
+// An empty text is no file, name or number: mostly it is a variable of a script that was never set.
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    option->check([](const std::string& value) { return value.empty() ? "the value is empty" : ""; });
+  for (CLI::App* command : app.get_subcommands(nullptr)) refuse_empty_values(*command);
+}
+
+// Help was asked for, or something is wrong with the arguments.
+int say_parse_result(const CLI::App& app, const CLI::ParseError& result) {
+  std::ostringstream help, problem;
+  if (app.exit(result, help, problem) == 0) {
+    etd::cli::answer("{}", help.str());
+    return etd::cli::code_after_answers(etd::cli::kOk, etd::cli::kInternalError);
+  }
+  etd::cli::tell("{}", problem.str());
+  return etd::cli::kBadInput;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  etd::cli::prepare_standard_streams();
   CLI::App app{"Etendue, a reference renderer for Monte Carlo light transport.", "etendue"};
   app.set_version_flag("--version", std::string("etendue ") + etd::version());
   app.require_subcommand(1);
@@ -58,16 +78,17 @@ int main(int argc, char** argv) {
   etd::cli::add_check(app, run);
   etd::cli::add_describe(app, run);
   etd::cli::add_verify(app, run);
+  refuse_empty_values(app);
   if (report_unknown_command(app, argc > 1 ? argv[1] : nullptr)) return etd::cli::kBadInput;
   try {
     app.parse(argc, argv);
-    return run();
+    return etd::cli::code_after_answers(run(), etd::cli::kInternalError);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? etd::cli::kOk : etd::cli::kBadInput;  // prints help or the error
+    return say_parse_result(app, e);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "etendue: out of memory\n");
+    etd::cli::tell("etendue: out of memory\n");
   } catch (const std::exception& e) {
-    fmt::print(stderr, "etendue: internal error: {}\n", e.what());
+    etd::cli::tell("etendue: internal error: {}\n", e.what());
   }
   return etd::cli::kInternalError;
 }

@@ -8,6 +8,8 @@
 #include "arguments.h"
 #include "commands.h"
 #include "io/file.h"
+#include "io/pending_file.h"
+#include "printing.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
 #include "render/provenance.h"
@@ -42,27 +44,24 @@ constexpr const char* kExamples =
     "Ctrl-C finishes what runs, writes the image so far and exits with 130.";
 
 int fail(const std::string& message) {
-  fmt::print(stderr, "etendue: {}\n", message);
+  tell("etendue: {}\n", message);
   return kBadInput;
 }
 
 // Why one of these cannot be written; empty when all can. Found before any work is done.
 std::string output_problem(const std::vector<std::string>& outputs, const Arguments& args) {
   std::set<std::filesystem::path> places;
-  const auto is_new = [&places](const std::string& path) {
-    return places.insert(std::filesystem::absolute(path).lexically_normal()).second;
+  const auto check = [&places](const std::string& path, const std::string& problem) -> std::string {
+    if (!problem.empty()) return fmt::format("cannot write {}: {}", path, problem);
+    if (!places.insert(std::filesystem::weakly_canonical(follow_links(path))).second)
+      return fmt::format("the output {} is given twice", path);
+    return {};
   };
   std::vector<std::string> images = outputs;
   if (!args.watch.preview.empty()) images.push_back(args.watch.preview);
-  for (const std::string& path : images) {
-    if (!is_new(path)) return fmt::format("the output {} is given twice", path);
-    if (const std::string problem = check_output_path(path); !problem.empty())
-      return fmt::format("cannot write {}: {}", path, problem);
-  }
-  if (args.stats.empty()) return {};
-  if (!is_new(args.stats)) return fmt::format("the output {} is given twice", args.stats);
-  const PendingFile trial(args.stats);
-  return trial.path().empty() ? fmt::format("cannot write {}: {}", args.stats, trial.error()) : std::string();
+  for (const std::string& path : images)
+    if (std::string problem = check(path, check_output_path(path)); !problem.empty()) return problem;
+  return args.stats.empty() ? std::string() : check(args.stats, place_problem(args.stats));
 }
 
 // Why there are not all the samples that were asked for.
@@ -76,36 +75,31 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
 
 void print_summary(const PreparedRender& prepared, const RenderResult& result) {
   const RenderSettings& s = prepared.settings;
-  fmt::print("{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
-             result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
-             short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
-             error_text(result.error));
+  report("{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
+         result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
+         short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
+         error_text(result.error));
 }
 
 void report_invalid_samples(const PreparedRender& prepared, const RenderResult& result) {
   const InvalidSamples& invalid = result.invalid;
   if (!invalid.first) return;
-  fmt::print(stderr,
-             "etendue: warning: {} of {} samples are invalid ({}) and were taken for black; the image is marked. The "
-             "first of them, step by step:\n  {}\n",
-             invalid.total(), result.rays.camera, invalid_text(invalid),
-             replay_command(prepared, result, *invalid.first));
+  tell(
+      "etendue: warning: {} of {} samples are invalid ({}) and were taken for black; the image is marked. The "
+      "first of them, step by step:\n  {}\n",
+      invalid.total(), result.rays.camera, invalid_text(invalid), replay_command(prepared, result, *invalid.first));
 }
 
 // Writes everything even when one file fails, since an image costs more than a message.
-bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const LayeredImage& image,
+bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const RowImage& image,
                const RenderStats& stats) {
   bool ok = true;
-  const auto report = [&ok](const std::string& path, const std::string& problem) {
-    if (problem.empty()) {
-      fmt::print("{}\n", path);
-    } else {
-      fmt::print(stderr, "etendue: cannot write {}: {}\n", path, problem);
-      ok = false;
-    }
+  const auto note = [&ok](const std::string& path, const std::string& problem) {
+    ok = ok && problem.empty();
+    problem.empty() ? report("{}\n", path) : tell("etendue: {}\n", problem);
   };
-  for (const std::string& path : outputs) report(path, write_output(path, image, args.watch.exposure));
-  if (!args.stats.empty()) report(args.stats, write_file(args.stats, stats_json(stats)));
+  for (const std::string& path : outputs) note(path, write_output(path, image, args.watch.exposure));
+  if (!args.stats.empty()) note(args.stats, write_file(args.stats, stats_json(stats)));
   return ok;
 }
 
@@ -138,14 +132,14 @@ int render_scene(const Arguments& args) {
   watchers.end_progress();
   RenderStats stats = finished_stats(*prepared, finished);
   stats.load_seconds = load_seconds;
-  const bool written = write_all(args, outputs, finished_image(*prepared, finished, args.replicate_layers), stats);
+  const bool written = write_all(args, outputs, finished_rows(*prepared, finished, args.replicate_layers), stats);
   print_summary(*prepared, finished.result);
   report_invalid_samples(*prepared, finished.result);
   watchers.end(finished.film);
   const TextureCache* cache = prepared->scene->textures.cache.get();
   if (cache && !cache->read_error().empty()) {
-    fmt::print(stderr, "etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
-               cache->read_error());
+    tell("etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
+         cache->read_error());
     return kInternalError;
   }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();

@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "printing.h"
 #include "render/overrides.h"
 #include "render/provenance.h"
 #include "render/replay.h"
@@ -30,11 +31,11 @@ constexpr const char* kExamples =
     "A scene needs the same options as the render: --size, --spp, --seed and so on. An image knows them.";
 
 int fail(const std::string& message) {
-  fmt::print(stderr, "etendue: {}\n", message);
+  tell("etendue: {}\n", message);
   return kBadInput;
 }
 
-void warn(const std::string& message) { fmt::print(stderr, "etendue: warning: {}\n", message); }
+void warn(const std::string& message) { tell("etendue: warning: {}\n", message); }
 
 // What is to be replayed, once images have been taken for the scenes they show.
 struct Task {
@@ -111,7 +112,7 @@ std::string sample_problem(const SampleId& id, const RenderSettings& s) {
 }
 
 void print_path(const PathRecord& path, const ReplayedScene& in, bool json) {
-  fmt::print("{}{}", json ? replay_json(path, in) : replay_text(path, in), json ? "\n" : "");
+  answer("{}{}", json ? replay_json(path, in) : replay_text(path, in), json ? "\n" : "");
 }
 
 int replay_one(const SampleId& id, const PreparedRender& prepared, const ReplayedScene& in, bool json) {
@@ -148,10 +149,10 @@ int replay_fireflies(const Arguments& args, const Provenance& image, const Prepa
     }
   }
   if (args.json)
-    fmt::print("[{}]\n", fmt::join(rows, ",\n"));
+    answer("[{}]\n", fmt::join(rows, ",\n"));
   else
-    fmt::print("{:>3}  {:>11}  {:>8}  {:>10}  {:>8}  path\n{}\n{}", "", "pixel", "sample", "luminance", "of pixel",
-               fmt::join(rows, "\n"), details);
+    answer("{:>3}  {:>11}  {:>8}  {:>10}  {:>8}  path\n{}\n{}", "", "pixel", "sample", "luminance", "of pixel",
+           fmt::join(rows, "\n"), details);
   if (changed > 0)
     warn(
         fmt::format("{} of {} samples have other values than in the image: the scene, a file that it uses, or the "

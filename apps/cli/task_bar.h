@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "printing.h"
+
 namespace etd::cli {
 
 class TaskBar {
@@ -22,12 +24,12 @@ class TaskBar {
     const auto filled = static_cast<size_t>(share * kWidth + 0.5);
     const std::string line = fmt::format("[{}{}] {:3.0f} % {:.{}}", std::string(filled, '#'),
                                          std::string(kWidth - filled, '.'), 100 * share, text, kTextWidth);
-    fmt::print(stderr, "\r{:<{}}", line, drawn_);
+    tell("\r{:<{}}", line, drawn_);
     std::fflush(stderr);
     drawn_ = line.size();
   }
   void clear() {
-    if (drawn_ > 0) fmt::print(stderr, "\r{:{}}\r", "", drawn_);
+    if (drawn_ > 0) tell("\r{:{}}\r", "", drawn_);
     drawn_ = 0;
   }
 

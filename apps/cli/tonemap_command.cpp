@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "io/picture.h"
+#include "printing.h"
 #include "render/tonemap.h"
 #include "spectrum/color_space.h"
 #include "spectrum/white_balance.h"
@@ -27,7 +28,7 @@ constexpr const char* kExamples =
     "  etendue tonemap box.exr indirect.png --layer indirect    one layer of the render\n";
 
 int fail(const std::string& message) {
-  fmt::print(stderr, "etendue: {}\n", message);
+  tell("etendue: {}\n", message);
   return kBadInput;
 }
 
@@ -66,13 +67,13 @@ int tonemap(const Arguments& args) {
     return fail(problem);
 
   if (const size_t bad = tone_map(picture.rgb, mapping); bad > 0)
-    fmt::print(stderr, "etendue: warning: {} of the pixels are not numbers; they are black\n", bad);
+    tell("etendue: warning: {} of the pixels are not numbers; they are black\n", bad);
   if (const std::string problem = write_rgb(args.output, read.image->width, read.image->height, picture.rgb);
       !problem.empty()) {
-    fmt::print(stderr, "etendue: cannot write {}: {}\n", args.output, problem);
+    tell("etendue: {}\n", problem);
     return kInternalError;
   }
-  fmt::print("{}\n", args.output);
+  report("{}\n", args.output);
   return kOk;
 }
 

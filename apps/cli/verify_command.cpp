@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "printing.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
 #include "task_bar.h"
@@ -35,10 +36,9 @@ constexpr double kSamplesOfOne = 4;
 
 int unknown(const std::string& what, const std::string& word, const std::set<std::string>& valid) {
   const std::vector<std::string_view> names(valid.begin(), valid.end());
-  fmt::print(stderr, "etendue: no {} \"{}\" is verified\n", what, word);
-  if (const std::string_view near = nearest_name(word, names); !near.empty())
-    fmt::print(stderr, "  did you mean \"{}\"?\n", near);
-  fmt::print(stderr, "  valid: {}\n", fmt::join(names, ", "));
+  tell("etendue: no {} \"{}\" is verified\n", what, word);
+  if (const std::string_view near = nearest_name(word, names); !near.empty()) tell("  did you mean \"{}\"?\n", near);
+  tell("  valid: {}\n", fmt::join(names, ", "));
   return kBadInput;
 }
 
@@ -70,18 +70,18 @@ int verify_models(const ModelArguments& args) {
       },
       interrupts.stop());
   bar.clear();
-  fmt::print("{}", args.json ? battery_json(run) : battery_table(run, !args.model.empty()));
+  answer("{}", args.json ? battery_json(run) : battery_table(run, !args.model.empty()));
 
   if (!args.folder.empty()) {
     std::string problem;
     for (const auto& file : write_check_pictures(run, args.folder, !args.model.empty(), problem))
-      if (!args.json) fmt::print("{}\n", file.string());
+      if (!args.json) answer("{}\n", file.string());
     if (!problem.empty()) {
-      fmt::print(stderr, "etendue: {}\n", problem);
+      tell("etendue: {}\n", problem);
       return kBadInput;
     }
   } else if (!run.passed() && !args.json) {
-    fmt::print("pictures of what differs: the same command with -o FOLDER\n");
+    answer("pictures of what differs: the same command with -o FOLDER\n");
   }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
   return run.passed() ? kOk : kFailed;
@@ -107,9 +107,9 @@ int verify_user_scene(const VerifySceneArguments& args) {
   print_diagnostics(diagnostics);
   if (!v) return kBadInput;
   if (args.json) {
-    fmt::print("{}", scene_json(*v));
+    answer("{}", scene_json(*v));
   } else {
-    fmt::print("{}x{}\n{}", v->width, v->height, scene_table(*v));
+    answer("{}x{}\n{}", v->width, v->height, scene_table(*v));
   }
   if (!args.folder.empty()) {
     std::error_code failed;
@@ -120,10 +120,10 @@ int verify_user_scene(const VerifySceneArguments& args) {
       std::replace(name.begin(), name.end(), ' ', '-');
       const std::filesystem::path path = std::filesystem::path(args.folder) / (name + ".png");
       if (const std::string problem = write_check_map(path, *e.map); !problem.empty()) {
-        fmt::print(stderr, "etendue: cannot write {}: {}\n", path.string(), problem);
+        tell("etendue: {}\n", problem);
         return kBadInput;
       }
-      if (!args.json) fmt::print("{}\n", path.string());
+      if (!args.json) answer("{}\n", path.string());
     }
   }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();

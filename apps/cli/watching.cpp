@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "printing.h"
+
 namespace etd::cli {
 namespace {
 
@@ -22,7 +24,7 @@ std::string Watchers::connect() {
 void Watchers::add_stream(FilmStream::Receiver receiver, std::chrono::milliseconds interval) {
   const auto report = [this](const std::string& problem) {
     end_progress();  // it draws itself again on the line after
-    fmt::print(stderr, "etendue: warning: {}; rendering goes on without it\n", problem);
+    tell("etendue: warning: {}; rendering goes on without it\n", problem);
   };
   streams_.push_back(std::make_unique<FilmStream>(std::move(receiver), report, interval));
   observers_.add(*streams_.back());
@@ -35,10 +37,7 @@ RenderObserver& Watchers::begin(const std::string& name) {
   }
   if (!options_.preview.empty())
     add_stream(
-        [this](const LayeredImage& picture) {
-          const std::string problem = write_output(options_.preview, picture, options_.exposure);
-          return problem.empty() ? problem : fmt::format("the preview {}: {}", options_.preview, problem);
-        },
+        [this](const LayeredImage& picture) { return write_output(options_.preview, picture, options_.exposure); },
         kPreviewInterval);
   if (viewer_)
     add_stream([this, name](const LayeredImage& picture) { return viewer_->show(name, picture); }, kViewerInterval);

@@ -2,15 +2,15 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include <fmt/format.h>
 
-#include "io/file.h"
 #include "io/oiio_setup.h"
+#include "io/pending_file.h"
 #include "io/pfm.h"
 #include "spectrum/srgb.h"
 
@@ -25,33 +25,72 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-std::string unknown_ending(const fs::path& path) {
-  return fmt::format("{}: an image file ends in .exr, .png, .jpg, .jpeg, .hdr or .pfm", path.string());
-}
+constexpr std::string_view kUnknownEnding = "an image file ends in .exr, .png, .jpg, .jpeg, .hdr or .pfm";
 
 size_t texel_count(int width, int height) { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 
-// Encodes in memory and writes the bytes ourselves: the encoders notice a full disk late, never, or by ending the
-// process.
-std::string encode_and_write(const fs::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                             const void* pixels) {
+std::string cannot_write(const fs::path& path, std::string why) {
+  while (!why.empty() && why.back() == '\n') why.pop_back();
+  return why.empty() ? why : fmt::format("cannot write {}: {}", path.string(), why);
+}
+
+// Where encoders put their bytes. They notice a full disk late, never, or by ending the process: so they are told that
+// all went well, and the file knows what did not.
+class FileProxy : public OIIO::Filesystem::IOProxy {
+ public:
+  FileProxy(const fs::path& path, PendingFile& file) : IOProxy(path.string(), Write), file_(file) {}
+  const char* proxytype() const override { return "pending"; }
+  bool seek(int64_t offset) override { return file_.seek(m_pos = offset), true; }
+  size_t write(const void* bytes, size_t size) override {
+    file_.write(bytes, size);
+    m_pos += static_cast<int64_t>(size);
+    end_ = std::max(end_, m_pos);
+    return size;
+  }
+  size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
+    const int64_t back = m_pos;
+    seek(offset);
+    write(bytes, size);
+    seek(back);
+    return size;
+  }
+  size_t size() const override { return static_cast<size_t>(end_); }
+
+ private:
+  PendingFile& file_;
+  int64_t end_ = 0;
+};
+
+// Encodes rows strip by strip; `value` makes what is stored out of each of their floats.
+template <class Value>
+std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const RowSource& append_row, Value value) {
+  using Stored = decltype(value(0.0f));
+  constexpr int kStrip = 16;  // as many rows as EXR compresses together
   prepare_oiio();
-  const auto failed = [&path](std::string why) {
-    while (!why.empty() && why.back() == '\n') why.pop_back();
-    return fmt::format("cannot write {}: {}", path.string(), why);
-  };
   try {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives the encoder, which may write when it is destroyed
+    PendingFile file(path);
+    if (!file.error().empty()) return cannot_write(path, file.error());
+    FileProxy proxy(path, file);  // outlives the encoder, which may write when it is destroyed
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path.string());
-    if (out == nullptr) return failed(OIIO::geterror());
-    if (!out->set_ioproxy(&memory) || !out->open(path.string(), spec) || !out->write_image(type, pixels) ||
-        !out->close()) {
-      return failed(out->geterror());
+    if (out == nullptr) return cannot_write(path, OIIO::geterror());
+    if (!out->set_ioproxy(&proxy) || !out->open(path.string(), spec)) return cannot_write(path, out->geterror());
+    std::vector<float> rows;
+    std::vector<Stored> stored;
+    for (int begin = 0; begin < spec.height && file.error().empty(); begin += kStrip) {
+      const int end = std::min(begin + kStrip, spec.height);
+      rows.clear();
+      for (int row = begin; row < end; ++row) append_row(row, rows);
+      stored.resize(rows.size());
+      std::transform(rows.begin(), rows.end(), stored.begin(), value);
+      if (!out->write_scanlines(spec.y + begin, spec.y + end, 0, OIIO::BaseTypeFromC<Stored>::value, stored.data()))
+        return cannot_write(path, out->geterror());
     }
-    return write_file(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    if (file.error().empty() && !out->close()) return cannot_write(path, out->geterror());
+    return cannot_write(path, file.commit());
+  } catch (const std::bad_alloc&) {
+    return cannot_write(path, "out of memory");
   } catch (const std::exception& error) {
-    return failed(error.what());
+    return cannot_write(path, error.what());
   }
 }
 
@@ -74,16 +113,12 @@ bool is_reserved(std::string_view name) {
   return std::find(std::begin(kReserved), std::end(kReserved), name) != std::end(kReserved);
 }
 
-std::string check_layers(const LayeredImage& image) {
+std::string check_header(const ImageHeader& image) {
   if (image.width < 1 || image.height < 1 || image.full_width < 1 || image.full_height < 1) {
     return fmt::format("an image cannot have {} x {} of {} x {} pixels", image.width, image.height, image.full_width,
                        image.full_height);
   }
   if (image.channels.empty()) return "the image has no channels";
-  const size_t expected = texel_count(image.width, image.height) * image.channels.size();
-  if (image.pixels.size() != expected) {
-    return fmt::format("{} values were given, {} expected", image.pixels.size(), expected);
-  }
   std::vector<std::string> names = image.channels;
   std::sort(names.begin(), names.end());
   if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end()) {
@@ -103,39 +138,46 @@ void add_metadata(OIIO::ImageSpec& spec, const std::string& name, const Metadata
     spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE), number);
 }
 
-std::string write_8bit(const fs::path& path, int width, int height, std::span<const float> rgb, float exposure) {
-  const float scale = std::exp2(exposure);
-  std::vector<uint8_t> bytes(rgb.size());
-  std::transform(rgb.begin(), rgb.end(), bytes.begin(), [scale](float v) { return linear_to_srgb8(v * scale); });
+std::string write_8bit(const fs::path& path, int width, int height, const RowSource& rgb, float exposure) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   if (ending_of(path) != ".png") {
     spec.attribute("Compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");
   }
-  return encode_and_write(path, spec, spec.format, bytes.data());
+  return encode_rows(path, spec, rgb,
+                     [scale = std::exp2(exposure)](float v) -> uint8_t { return linear_to_srgb8(v * scale); });
 }
 
 // Finite values stay finite as 16-bit floats.
-std::vector<float> within_half(std::vector<float> values) {
+float within_half(float v) {
   constexpr float kLargest = 65504;
-  for (float& v : values)
-    if (std::isfinite(v)) v = std::clamp(v, -kLargest, kLargest);
-  return values;
+  return std::isfinite(v) ? std::clamp(v, -kLargest, kLargest) : v;
 }
 
 // Shared exponents hold neither negative numbers nor what is no number, and end at 2^127.
-std::string write_hdr(const fs::path& path, int width, int height, std::span<const float> rgb) {
-  static constexpr float kLargest = 0x1.fep126f;
-  std::vector<float> values(rgb.size());
-  std::transform(rgb.begin(), rgb.end(), values.begin(), [](float v) { return v > 0 ? std::min(v, kLargest) : 0.0f; });
-  const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
-  return encode_and_write(path, spec, spec.format, values.data());
+float within_shared_exponent(float v) {
+  constexpr float kLargest = 0x1.fep126f;
+  return v > 0 ? std::min(v, kLargest) : 0.0f;
+}
+
+std::string write_pfm(const fs::path& path, int width, int height, const RowSource& rgb) {
+  PendingFile file(path);
+  const std::string header = pfm_header(width, height);
+  file.write(header.data(), header.size());
+  std::vector<float> row;
+  for (int y = height; y-- > 0 && file.error().empty();) {
+    row.clear();
+    rgb(y, row);
+    const std::string bytes = pfm_row(row);
+    file.write(bytes.data(), bytes.size());
+  }
+  return cannot_write(path, file.commit());
 }
 
 }  // namespace
 
-int LayeredImage::find(std::string_view channel) const {
+int ImageHeader::find(std::string_view channel) const {
   const auto found = std::find(channels.begin(), channels.end(), channel);
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
 }
@@ -149,18 +191,31 @@ std::vector<float> LayeredImage::plane(std::string_view channel) const {
   return values;
 }
 
-const MetadataValue* LayeredImage::find_metadata(std::string_view name) const {
+const MetadataValue* ImageHeader::find_metadata(std::string_view name) const {
   for (const auto& entry : metadata) {
     if (entry.first == name) return &entry.second;
   }
   return nullptr;
 }
 
-std::string write_layers(const fs::path& path, const LayeredImage& image) {
-  if (!is_layered_path(path)) return fmt::format("{}: layers need a file that ends in .exr", path.string());
-  if (std::string error = check_layers(image); !error.empty()) {
-    return fmt::format("cannot write {}: {}", path.string(), error);
-  }
+RowImage rows_of(const LayeredImage& image) {
+  const size_t row_size = static_cast<size_t>(image.width) * image.channels.size();
+  return {image, [&image, row_size](int row, std::vector<float>& to) {
+            const auto begin = image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(row) * row_size);
+            to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(row_size));
+          }};
+}
+
+LayeredImage all_rows(const RowImage& image) {
+  LayeredImage all{image, {}};
+  all.pixels.reserve(texel_count(image.width, image.height) * image.channels.size());
+  for (int row = 0; row < image.height; ++row) image.append_row(row, all.pixels);
+  return all;
+}
+
+std::string write_layers(const fs::path& path, const RowImage& image) {
+  if (!is_layered_path(path)) return cannot_write(path, "layers need a file that ends in .exr");
+  if (std::string error = check_header(image); !error.empty()) return cannot_write(path, error);
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
                        image.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.x = image.x;
@@ -170,36 +225,43 @@ std::string write_layers(const fs::path& path, const LayeredImage& image) {
   spec.channelnames = image.channels;
   spec.attribute("compression", "zip");
   for (const auto& [name, value] : image.metadata) add_metadata(spec, name, value);
-  const OIIO::TypeDesc given(OIIO::TypeDesc::FLOAT);
-  return image.half ? encode_and_write(path, spec, given, within_half(image.pixels).data())
-                    : encode_and_write(path, spec, given, image.pixels.data());
+  if (image.half) return encode_rows(path, spec, image.append_row, within_half);
+  return encode_rows(path, spec, image.append_row, [](float v) { return v; });
+}
+
+std::string write_layers(const fs::path& path, const LayeredImage& image) {
+  const size_t expected = texel_count(image.width, image.height) * image.channels.size();
+  if (image.pixels.size() != expected)
+    return cannot_write(path, fmt::format("{} values were given, {} expected", image.pixels.size(), expected));
+  return write_layers(path, rows_of(image));
+}
+
+std::string write_rgb(const fs::path& path, int width, int height, const RowSource& rgb, float exposure) {
+  const std::string ending = ending_of(path);
+  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return write_8bit(path, width, height, rgb, exposure);
+  if (ending == ".hdr")
+    return encode_rows(path, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT), rgb, within_shared_exponent);
+  if (ending == ".pfm") return write_pfm(path, width, height, rgb);
+  return cannot_write(path, std::string(kUnknownEnding));
 }
 
 std::string write_rgb(const fs::path& path, int width, int height, std::span<const float> rgb, float exposure) {
-  if (width < 1 || height < 1 || rgb.size() != 3 * texel_count(width, height)) {
-    return fmt::format("cannot write {}: {} values do not make {} x {} RGB pixels", path.string(), rgb.size(), width,
-                       height);
-  }
-  const std::string ending = ending_of(path);
-  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return write_8bit(path, width, height, rgb, exposure);
-  if (ending == ".hdr") return write_hdr(path, width, height, rgb);
-  if (ending == ".pfm") return write_file(path, encode_pfm(width, height, rgb));
-  return unknown_ending(path);
+  if (width < 1 || height < 1 || rgb.size() != 3 * texel_count(width, height))
+    return cannot_write(path, fmt::format("{} values do not make {} x {} RGB pixels", rgb.size(), width, height));
+  const size_t row_size = 3 * static_cast<size_t>(width);
+  const auto append = [&](int row, std::vector<float>& to) {
+    const std::span<const float> values = rgb.subspan(static_cast<size_t>(row) * row_size, row_size);
+    to.insert(to.end(), values.begin(), values.end());
+  };
+  return write_rgb(path, width, height, append, exposure);
 }
 
 std::string check_output_path(const fs::path& path) {
   const std::string ending = ending_of(path);
   constexpr std::string_view kEndings[] = {".exr", ".png", ".jpg", ".jpeg", ".hdr", ".pfm"};
-  if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) return unknown_ending(path);
-  std::error_code ignored;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::exists(folder, ignored)) return fmt::format("the folder {} does not exist", folder.string());
-  if (!fs::is_directory(folder, ignored)) return fmt::format("{} is not a folder", folder.string());
-  if (fs::exists(path, ignored)) {
-    if (!fs::is_regular_file(path, ignored)) return fmt::format("{} is not a file that can be replaced", path.string());
-    if (::access(path.c_str(), W_OK) != 0) return fmt::format("{} is write-protected", path.string());
-  }
-  return PendingFile(path).error();
+  if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings))
+    return std::string(kUnknownEnding);
+  return place_problem(path);
 }
 
 bool is_layered_path(const fs::path& path) { return ending_of(path) == ".exr"; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,26 +16,46 @@ namespace etd {
 
 using MetadataValue = std::variant<std::string, int, float, double>;
 
-// A float image of named channels ("R", "direct.R", "depth.Z"), perhaps a crop of a larger one.
-struct LayeredImage {
+// What is known about an image of named channels ("R", "direct.R", "depth.Z"), perhaps a crop of a larger one, before
+// there are pixels.
+struct ImageHeader {
   int width = 0, height = 0;            // of the pixels that exist (the data window)
   int x = 0, y = 0;                     // their top left corner in the full image
   int full_width = 0, full_height = 0;  // of the full image (the display window), which starts at 0, 0
   std::vector<std::string> channels;
-  std::vector<float> pixels;  // rows from the top, channels interleaved in the order of `channels`
   std::vector<std::pair<std::string, MetadataValue>> metadata;
   bool half = false;  // written with 16-bit floats
 
   // The index of a channel, -1 when there is none of this name.
   int find(std::string_view channel) const;
-  // One channel as a plane of width * height values; empty when there is none of this name.
-  std::vector<float> plane(std::string_view channel) const;
   // The value of a metadata entry; null when there is none of this name.
   const MetadataValue* find_metadata(std::string_view name) const;
 };
 
+// An image in memory.
+struct LayeredImage : ImageHeader {
+  std::vector<float> pixels;  // rows from the top, channels interleaved in the order of `channels`
+
+  // One channel as a plane of width * height values; empty when there is none of this name.
+  std::vector<float> plane(std::string_view channel) const;
+};
+
+// Appends the values of a row, counted from the top of what exists, channels interleaved.
+using RowSource = std::function<void(int row, std::vector<float>& to)>;
+
+// An image whose rows are made when they are asked for, in any order: large ones are written without a copy in memory.
+struct RowImage : ImageHeader {
+  RowSource append_row;
+};
+
+// The rows of an image in memory, which must outlive them; and back.
+RowImage rows_of(const LayeredImage& image);
+LayeredImage all_rows(const RowImage& image);
+
 // Writes an EXR, ZIP compressed. 32-bit floats arrive bit for bit, in any order of the channels; 16-bit ones are
-// rounded, and finite values stay so. Returns what went wrong, or an empty string.
+// rounded, and finite values stay so. Like every function here, it needs memory for a few rows and returns what went
+// wrong ("cannot write NAME: ..."), or an empty string.
+std::string write_layers(const std::filesystem::path& path, const RowImage& image);
 std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
 
 // Every channel of an EXR's first part as floats. Of the metadata those that are a string, int, float or double, which
@@ -47,7 +68,9 @@ LayersResult read_layers(const std::filesystem::path& path);
 
 // Writes linear Rec.709, three floats a pixel, rows from the top. By the path's ending: .png, .jpg and .jpeg hold
 // 8 bits, values times 2^exposure through the sRGB curve, clamped; .hdr (negative values become 0, no other loss of
-// range) and .pfm hold the values themselves, whatever the exposure. Returns what went wrong, or an empty string.
+// range) and .pfm hold the values themselves, whatever the exposure.
+std::string write_rgb(const std::filesystem::path& path, int width, int height, const RowSource& rgb,
+                      float exposure = 0);
 std::string write_rgb(const std::filesystem::path& path, int width, int height, std::span<const float> rgb,
                       float exposure = 0);
 

@@ -76,16 +76,23 @@ ImageResult decode_pfm(std::string_view bytes) {
   return {Image(width, height, channels, texels), {}};
 }
 
-std::string encode_pfm(int width, int height, std::span<const float> rgb) {
-  std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", width, height);
-  const size_t row = 3 * static_cast<size_t>(width);
-  bytes.reserve(bytes.size() + rgb.size() * sizeof(float));
-  for (size_t y = static_cast<size_t>(height); y-- > 0;) {
-    for (const float v : rgb.subspan(y * row, row)) {
-      const uint32_t bits = float_bits(v);
-      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xffu);
-    }
+std::string pfm_header(int width, int height) { return fmt::format("PF\n{} {}\n-1.0\n", width, height); }
+
+std::string pfm_row(std::span<const float> rgb) {
+  std::string bytes;
+  bytes.reserve(rgb.size_bytes());
+  for (const float v : rgb) {
+    const uint32_t bits = float_bits(v);
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xffu);
   }
+  return bytes;
+}
+
+std::string encode_pfm(int width, int height, std::span<const float> rgb) {
+  std::string bytes = pfm_header(width, height);
+  const size_t row = 3 * static_cast<size_t>(width);
+  bytes.reserve(bytes.size() + rgb.size_bytes());
+  for (size_t y = static_cast<size_t>(height); y-- > 0;) bytes += pfm_row(rgb.subspan(y * row, row));
   return bytes;
 }
 

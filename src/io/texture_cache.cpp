@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "io/file.h"
 #include "io/oiio_setup.h"
+#include "io/pending_file.h"
 
 namespace etd {
 namespace {

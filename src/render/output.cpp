@@ -120,60 +120,48 @@ std::string bias_text(const std::string& of_integrator, const Sensor& sensor, co
   return text.empty() ? std::string("nothing") : text;
 }
 
-// An image of the film's size and place, without pixels.
-LayeredImage empty_image(const FilmSettings& settings, std::vector<std::string> channels) {
-  LayeredImage image;
-  image.width = settings.crop.width();
-  image.height = settings.crop.height();
-  image.x = settings.crop.x0;
-  image.y = settings.crop.y0;
-  image.full_width = settings.width;
-  image.full_height = settings.height;
-  image.channels = std::move(channels);
-  image.pixels.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
-  return image;
+// The size and place of the film.
+ImageHeader header_of(const FilmSettings& settings, std::vector<std::string> channels) {
+  ImageHeader header;
+  header.width = settings.crop.width();
+  header.height = settings.crop.height();
+  header.x = settings.crop.x0;
+  header.y = settings.crop.y0;
+  header.full_width = settings.width;
+  header.full_height = settings.height;
+  header.channels = std::move(channels);
+  return header;
 }
+
+void append(const Rgb& values, std::vector<float>& out) { out.insert(out.end(), values.begin(), values.end()); }
 
 }  // namespace
 
-LayeredImage make_layers(const Film& film) {
+RowImage layer_rows(const Film& film, bool replicate_layers) {
   const FilmSettings& settings = film.settings();
-  LayeredImage image = empty_image(settings, channel_names(settings));
-  for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
-    for (int x = settings.crop.x0; x < settings.crop.x1; ++x) append_pixel(film, x, y, image.pixels);
-  return image;
+  const uint32_t replicates = replicate_layers ? settings.replicates : 0;
+  std::vector<std::string> channels = channel_names(settings);
+  for (uint32_t r = 0; r < replicates; ++r)
+    for (const char* c : {"R", "G", "B"}) channels.push_back(fmt::format("replicate{}.{}", r, c));
+  return {header_of(settings, std::move(channels)), [&film, replicates](int row, std::vector<float>& out) {
+            const PixelBounds& crop = film.settings().crop;
+            for (int x = crop.x0, y = crop.y0 + row; x < crop.x1; ++x) {
+              append_pixel(film, x, y, out);
+              for (uint32_t r = 0; r < replicates; ++r) append(radiance(film.sums(x, y, r)).picture, out);
+            }
+          }};
 }
 
-void add_replicate_layers(const Film& film, LayeredImage& image) {
-  const FilmSettings& settings = film.settings();
-  std::vector<float> pixels;
-  const size_t channels = image.channels.size();
-  pixels.reserve(image.pixels.size() / channels * (channels + 3 * settings.replicates));
-  auto from = image.pixels.begin();
-  for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
-    for (int x = settings.crop.x0; x < settings.crop.x1; ++x) {
-      const auto next = from + static_cast<std::ptrdiff_t>(channels);
-      pixels.insert(pixels.end(), from, next);
-      from = next;
-      for (uint32_t r = 0; r < settings.replicates; ++r) {
-        const Rgb picture = radiance(film.sums(x, y, r)).picture;
-        pixels.insert(pixels.end(), picture.begin(), picture.end());
-      }
-    }
-  image.pixels = std::move(pixels);
-  for (uint32_t r = 0; r < settings.replicates; ++r)
-    for (const char* c : {"R", "G", "B"}) image.channels.push_back(fmt::format("replicate{}.{}", r, c));
+LayeredImage make_layers(const Film& film, bool replicate_layers) {
+  return all_rows(layer_rows(film, replicate_layers));
 }
 
 LayeredImage make_picture(const Film& film) {
-  const PixelBounds& crop = film.settings().crop;
-  LayeredImage image = empty_image(film.settings(), {"R", "G", "B"});
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const Rgb picture = radiance(film.total(x, y)).picture;
-      image.pixels.insert(image.pixels.end(), picture.begin(), picture.end());
-    }
-  return image;
+  return all_rows({header_of(film.settings(), {"R", "G", "B"}), [&film](int row, std::vector<float>& out) {
+                     const PixelBounds& crop = film.settings().crop;
+                     for (int x = crop.x0, y = crop.y0 + row; x < crop.x1; ++x)
+                       append(radiance(film.total(x, y)).picture, out);
+                   }});
 }
 
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
@@ -227,15 +215,21 @@ std::string invalid_text(const InvalidSamples& invalid) {
   return text.empty() ? std::string("none") : text;
 }
 
-std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
+std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure) {
   if (is_layered_path(path)) return write_layers(path, image);
-  const size_t channels = image.channels.size();
   const std::array<int, 3> picture = {image.find("R"), image.find("G"), image.find("B")};
-  std::vector<float> rgb;
-  rgb.reserve(image.pixels.size() / channels * 3);
-  for (size_t pixel = 0; pixel < image.pixels.size(); pixel += channels)
-    for (int channel : picture) rgb.push_back(image.pixels[pixel + static_cast<size_t>(channel)]);
-  return write_rgb(path, image.width, image.height, rgb, static_cast<float>(exposure));
+  std::vector<float> all;
+  const auto append_rgb = [&](int row, std::vector<float>& out) {
+    all.clear();
+    image.append_row(row, all);
+    for (size_t pixel = 0; pixel < all.size(); pixel += image.channels.size())
+      for (int channel : picture) out.push_back(all[pixel + static_cast<size_t>(channel)]);
+  };
+  return write_rgb(path, image.width, image.height, append_rgb, static_cast<float>(exposure));
+}
+
+std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
+  return write_output(path, rows_of(image), exposure);
 }
 
 }  // namespace etd

@@ -18,10 +18,11 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 // The film as float layers: R, G, B; direct.*, indirect.*, emission.* (radiance); with features albedo.R..B,
 // normal.X..Z, depth.Z (metres), coverage.A, and of a gbuffer position.X..Z; stderr.R, .G, .B, .Y. The picture is
 // (emission + direct) + indirect of the float layers, so that this sum holds bit for bit in the file.
-LayeredImage make_layers(const Film& film);
-
-// Adds layers replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is the picture.
-void add_replicate_layers(const Film& film, LayeredImage& image);
+// `replicate_layers` adds replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is
+// the picture. The film must outlive the rows.
+RowImage layer_rows(const Film& film, bool replicate_layers = false);
+// The same in memory.
+LayeredImage make_layers(const Film& film, bool replicate_layers = false);
 
 // The picture alone: the layers R, G and B of make_layers().
 LayeredImage make_picture(const Film& film);
@@ -36,7 +37,8 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
 std::string invalid_text(const InvalidSamples& invalid);
 
 // Writes one file in the format of its ending: all layers, or the picture alone (`exposure` in stops, for formats of
-// limited range). Returns what went wrong, or an empty string.
+// limited range). Returns what went wrong ("cannot write NAME: ..."), or an empty string.
+std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure);
 std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure);
 
 }  // namespace etd

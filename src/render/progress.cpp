@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/print.h"
+
 namespace etd {
 namespace {
 
@@ -61,7 +63,7 @@ void ProgressPrinter::print_line(const RenderProgress& progress) {
   const int tenths = static_cast<int>(10 * progress.share);
   if (tenths <= tenths_) return;
   tenths_ = tenths;
-  fmt::print(out_, "{:3} %  {}\n", 10 * tenths, progress_text(progress));
+  print_or_drop(out_, "{:3} %  {}\n", 10 * tenths, progress_text(progress));
   std::fflush(out_);
 }
 
@@ -70,7 +72,7 @@ void ProgressPrinter::draw(const RenderProgress& progress) {
   const auto filled = static_cast<size_t>(std::lround(kBarWidth * progress.share));
   const std::string line =
       fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), progress_text(progress));
-  fmt::print(out_, "\r{:<{}}", line, drawn_);
+  print_or_drop(out_, "\r{:<{}}", line, drawn_);
   std::fflush(out_);
   drawn_ = line.size();
 }
@@ -78,7 +80,7 @@ void ProgressPrinter::draw(const RenderProgress& progress) {
 void ProgressPrinter::finish() {
   const std::lock_guard lock(mutex_);
   if (drawn_ == 0) return;
-  fmt::print(out_, "\r{:{}}\r", "", drawn_);
+  print_or_drop(out_, "\r{:{}}\r", "", drawn_);
   std::fflush(out_);
   drawn_ = 0;
 }

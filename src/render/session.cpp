@@ -83,9 +83,8 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
   return finished;
 }
 
-LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
-  LayeredImage image = make_layers(finished.film);
-  if (replicate_layers) add_replicate_layers(finished.film, image);
+RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
+  RowImage image = layer_rows(finished.film, replicate_layers);
   image.half = prepared.settings.half;
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, prepared.integrator->bias(), finished.result);
   const IntegratorTraits traits = prepared.integrator->traits();
@@ -93,6 +92,10 @@ LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender
   image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));
   add_provenance(prepared, finished, image.metadata);
   return image;
+}
+
+LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
+  return all_rows(finished_rows(prepared, finished, replicate_layers));
 }
 
 RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender& finished) {

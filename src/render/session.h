@@ -48,6 +48,9 @@ struct FinishedRender {
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
 
 // The image with its layers and metadata, ready for write_output(); with layers for each replicate if they are wanted.
+// Its rows are made from the film, which must outlive them.
+RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers = false);
+// The same in memory.
 LayeredImage finished_image(const PreparedRender& prepared, const FinishedRender& finished,
                             bool replicate_layers = false);
 // All numbers but the seconds of loading, which the caller knows.

@@ -1,0 +1,41 @@
+#include "printing.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+namespace etd::cli {
+namespace {
+
+bool g_answered = false;
+int g_failure = 0;  // errno of the first answer that could not be written
+
+}  // namespace
+
+void prepare_standard_streams() {
+  std::signal(SIGPIPE, SIG_IGN);  // nobody reads any more
+  std::signal(SIGXFSZ, SIG_IGN);  // a file would become longer than the user allows
+  // In this order: a new descriptor is the lowest one that is free. They are opened the wrong way round, so that
+  // reading and writing fail as they would if the stream were closed.
+  for (const auto& [stream, mode] :
+       {std::pair(STDIN_FILENO, O_WRONLY), std::pair(STDOUT_FILENO, O_RDONLY), std::pair(STDERR_FILENO, O_RDONLY)})
+    if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", mode));
+}
+
+void answer_text(std::string_view text) {
+  g_answered = true;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && g_failure == 0) g_failure = errno;
+}
+
+int code_after_answers(int code, int failed) {
+  if (std::fflush(stdout) != 0 && g_failure == 0) g_failure = errno;
+  if (!g_answered || g_failure == 0 || code != 0) return code;
+  // A reader that has seen enough, as in `| head`, is no news.
+  if (g_failure != EPIPE) tell("etendue: cannot write to standard output: {}\n", std::strerror(g_failure));
+  return failed;
+}
+
+}  // namespace etd::cli
