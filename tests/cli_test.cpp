@@ -36,7 +36,12 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
            {"render s.pbrt --error 0", "must be positive"},
            {"render s.pbrt --mode naiv", "did you mean \"naive\"?"},
            {"render s.pbrt -o a.exr -o ./a.exr", "given twice"},
-           {"render s.pbrt -o a.gif", "cannot write a.gif"},
+           {"render s.pbrt -o a.gif", "cannot write a.gif: an image file ends in .exr"},
+           {"render s.pbrt -o ''", "--output: the value is empty"},
+           {"render s.pbrt --stats ''", "--stats: the value is empty"},
+           {"tonemap '' a.png", "input: the value is empty"},
+           {"verify scene s.pbrt -o ''", "--output: the value is empty"},
+           {"render s.pbrt --stats /dev/null", "/dev/null is not a file that can be replaced"},
            {"render s.blend", "names no scene language that is read; it is that of Blender files"},
            {"render absent.pbrt", "absent.pbrt"},
            {"describe material difuse", "did you mean \"diffuse\"?"}}) {

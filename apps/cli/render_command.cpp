@@ -53,7 +53,7 @@ std::string output_problem(const std::vector<std::string>& outputs, const Argume
   std::set<std::filesystem::path> places;
   const auto check = [&places](const std::string& path, const std::string& problem) -> std::string {
     if (!problem.empty()) return fmt::format("cannot write {}: {}", path, problem);
-    if (!places.insert(std::filesystem::weakly_canonical(follow_links(path))).second)
+    if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path)))).second)
       return fmt::format("the output {} is given twice", path);
     return {};
   };
