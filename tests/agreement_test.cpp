@@ -36,7 +36,9 @@ const Scene kScenes[] = {{"conductor_box", 320, 128, 128, 128, 0},
                          {"glass_caustic", 512, 256, 256, 0, 0},
                          {"lamps", 1024, 512, 512, 0, 512},
                          {"moving_lamps", 640, 896, 640},
-                         {"window_room", 1024, 320, 320}};
+                         {"window_room", 1024, 320, 320},
+                         {"bumpy_room", 320, 512, 160},
+                         {"bumpy_glass", 320, 256, 160}};
 
 // All are compared with the first.
 std::vector<Variant> variants(const Scene& s) {
@@ -112,6 +114,8 @@ TEST(StatisticalAgreement, GlassCaustic) { expect_all_agree(kScenes[3]); }
 TEST(StatisticalAgreement, Lamps) { expect_all_agree(kScenes[4]); }
 TEST(StatisticalAgreement, MovingLamps) { expect_all_agree(kScenes[5]); }
 TEST(StatisticalAgreement, WindowRoom) { expect_all_agree(kScenes[6]); }
+TEST(StatisticalAgreement, BumpyRoom) { expect_all_agree(kScenes[7]); }
+TEST(StatisticalAgreement, BumpyGlass) { expect_all_agree(kScenes[8]); }
 
 TEST(SlowAgreement, ConductorBox) { expect_all_agree(kScenes[0], 32); }
 TEST(SlowAgreement, TexturedRoom) { expect_all_agree(kScenes[1], 32); }
@@ -120,6 +124,8 @@ TEST(SlowAgreement, GlassCaustic) { expect_all_agree(kScenes[3], 32); }
 TEST(SlowAgreement, Lamps) { expect_all_agree(kScenes[4], 32); }
 TEST(SlowAgreement, MovingLamps) { expect_all_agree(kScenes[5], 32); }
 TEST(SlowAgreement, WindowRoom) { expect_all_agree(kScenes[6], 32); }
+TEST(SlowAgreement, BumpyRoom) { expect_all_agree(kScenes[7], 32); }
+TEST(SlowAgreement, BumpyGlass) { expect_all_agree(kScenes[8], 32); }
 
 TEST(StatisticalAgreement, FindsAPlantedErrorOfOnePercent) {
   const Scene& scene = kScenes[2];

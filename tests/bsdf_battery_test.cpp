@@ -16,7 +16,7 @@ namespace {
 // all checks, must be 3.6e-6 unlikely instead of 5e-9, so that a non-centrality of 134 is found in 9 of 10 cases
 // instead of one of 175.
 BatteryOptions options_of_seed(uint64_t seed) {
-  return {kSlowBuild ? 0.1 : 0.75, seed, 1e-4 / static_cast<double>(bsdf_examples().size())};
+  return {kSlowBuild ? 0.1 : 0.75, seed, 1e-4 / static_cast<double>(bsdf_subjects().size())};
 }
 
 class BsdfBattery : public testing::TestWithParam<size_t> {};
@@ -27,13 +27,13 @@ TEST_P(BsdfBattery, Passes) {
 }
 
 std::string test_name(const testing::TestParamInfo<size_t>& info) {
-  std::string name = bsdf_examples()[info.param].name;
+  std::string name = bsdf_subjects()[info.param].name;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, BsdfBattery, testing::Range(size_t{0}, bsdf_examples().size()), test_name);
+INSTANTIATE_TEST_SUITE_P(Examples, BsdfBattery, testing::Range(size_t{0}, bsdf_subjects().size()), test_name);
 
 TEST(BsdfExamples, CoverEveryClosure) {
   std::set<uint32_t> kinds;

@@ -8,6 +8,7 @@
 #include "bsdfs/dielectric.h"
 #include "bsdfs/lambert.h"
 #include "core/warp.h"
+#include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
 #include "model_uses.h"
 #include "temp_folder.h"
@@ -133,45 +134,71 @@ struct Leaning {
   Frame frame = Frame::from_z(ns);
 };
 
-TEST(SurfaceScatter, SidesOfBothNormalsMustAgree) {
+// The geometric normal decides whether two directions reflect; the light must be on the same side of the shading
+// normal, while the viewer may be anywhere.
+TEST(SurfaceScatter, TheGeometricNormalDecidesSides) {
   const Leaning l;
   const Bsdf closures[] = {Bsdf(Lambert{Spectrum(0.5f)}),
                            Bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}})};
   HashStream rng(1);
-  int disagreements = 0;
+  int viewers_behind = 0, dark_lights = 0;
   for (const Bsdf& bsdf : closures)
     for (int i = 0; i < 4000; ++i) {
       const SurfaceScatter scatter(bsdf, l.frame, l.ng);
-      const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
-      const Vec3 wi = sample_sphere_uniform({rng.next_float(), rng.next_float()});
-      const bool same_ns = dot(wo, l.ns) * dot(wi, l.ns) > 0, same_ng = dot(wo, l.ng) * dot(wi, l.ng) > 0;
-      const Spectrum f = scatter.eval_cos(wo, wi, TransportMode::kRadiance, rng);
-      const float pdf = scatter.pdf(wo, wi, TransportMode::kRadiance);
-      EXPECT_EQ(f[0] > 0, same_ns && same_ng);
-      EXPECT_EQ(pdf > 0, same_ns && same_ng);
-      disagreements += same_ns != same_ng;
+      const Vec3 viewer = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      const Vec3 light = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      const bool reflects = dot(viewer, l.ng) * dot(light, l.ng) > 0, shines = dot(light, l.ng) * dot(light, l.ns) > 0;
+      EXPECT_EQ(scatter.eval_cos(viewer, light, TransportMode::kRadiance, rng)[0] > 0, reflects && shines);
+      EXPECT_EQ(scatter.eval_cos(light, viewer, TransportMode::kImportance, rng)[0] > 0, reflects && shines);
+      EXPECT_EQ(scatter.pdf(viewer, light, TransportMode::kRadiance) > 0, reflects && shines);
+      EXPECT_EQ(scatter.pdf(light, viewer, TransportMode::kImportance) > 0, reflects && shines);
+      viewers_behind += reflects && shines && dot(viewer, l.ns) * dot(viewer, l.ng) < 0;
+      dark_lights += reflects && !shines;
     }
-  EXPECT_GT(disagreements, 500);
+  EXPECT_GT(viewers_behind, 300);
+  EXPECT_GT(dark_lights, 300);
 }
 
-TEST(SurfaceScatter, RefractionCrossesBothNormals) {
+TEST(SurfaceScatter, RefractionCrossesTheGeometricNormal) {
   const Leaning l;
   const SurfaceScatter scatter(Bsdf(SmoothDielectric{1.5f}), l.frame, l.ng);
   HashStream rng(2);
   int failures = 0, made = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
-    const auto s = scatter.sample(wo, {0.5f, 0.5f, rng.next_float()}, TransportMode::kRadiance, rng);
+    const Vec3 viewer = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+    const auto s = scatter.sample(viewer, {0.5f, 0.5f, rng.next_float()}, TransportMode::kRadiance, rng);
     failures += !s;
     if (!s) continue;
     ++made;
-    const bool crosses_ns = dot(wo, l.ns) * dot(s->wi, l.ns) < 0, crosses_ng = dot(wo, l.ng) * dot(s->wi, l.ng) < 0;
-    EXPECT_EQ(crosses_ns, s->is_transmission());
-    EXPECT_EQ(crosses_ng, s->is_transmission());
+    EXPECT_EQ(dot(viewer, l.ng) * dot(s->wi, l.ng) < 0, s->is_transmission());
+    EXPECT_GT(dot(s->wi, l.ns) * dot(s->wi, l.ng), 0);
     EXPECT_NEAR(length(s->wi), 1.0f, 1e-5f);
   }
   EXPECT_GT(failures, 100);
   EXPECT_GT(made, 2000);
+}
+
+// A surface of albedo 1 under a sky of 1 loses what comes from behind its shading normal, whoever looks: the lune
+// between the two planes. (1 + cos tilt) / 2 is left.
+TEST(SurfaceScatter, DiffuseFurnaceAtEveryTiltAndView) {
+  const Vec3 ng = normalize(Vec3{0.2f, -0.3f, 0.9f});
+  HashStream rng(3);
+  for (const float degrees : {0.0f, 10.0f, 21.0f, 45.0f, 70.0f, 89.0f}) {
+    const float tilt = degrees * kPi / 180;
+    const Vec3 ns = ng * std::cos(tilt) + Frame::from_z(ng).x * std::sin(tilt);
+    const SurfaceScatter scatter(Bsdf(Lambert{Spectrum(1)}), Frame::from_z(ns), ng);
+    for (int view = 0; view < 20; ++view) {
+      const Vec3 viewer = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      constexpr int kGrid = 100;
+      double sum = 0;
+      for (int i = 0; i < kGrid * kGrid; ++i) {
+        const Vec3 u{(static_cast<float>(i % kGrid) + 0.5f) / kGrid, (static_cast<float>(i / kGrid) + 0.5f) / kGrid,
+                     0.5f};
+        if (const auto s = scatter.sample(viewer, u, TransportMode::kRadiance, rng)) sum += s->weight[0];
+      }
+      EXPECT_NEAR(sum / (kGrid * kGrid), (1 + std::cos(tilt)) / 2, 3e-3) << degrees << " degrees";
+    }
+  }
 }
 
 TEST(SurfaceScatter, SampleEvalAndPdfAgreeInTheWorld) {
@@ -209,6 +236,40 @@ TEST(SurfaceScatter, ImportanceIsTheAdjointOfRadiance) {
     ++compared;
   }
   EXPECT_GT(compared, 1000);
+}
+
+// Where the mirror image of the viewer is behind the surface, the normal turns until it is not, and no further: no
+// normal nearer to the old one would do.
+TEST(BentNormal, TurnsByTheLeastAngle) {
+  HashStream rng(6);
+  const auto direction = [&rng] { return sample_sphere_uniform({rng.next_float(), rng.next_float()}); };
+  const auto height = [](Vec3 n, Vec3 ng, Vec3 wo) {
+    return (2 * dot(n, wo) * dot(n, ng) - dot(wo, ng)) * std::copysign(1.0f, dot(wo, ng));
+  };
+  int bent = 0, behind = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 ng = direction(), wo = i % 50 == 0 ? ng : direction(), ns = face_forward(direction(), ng);
+    const Frame frame = Frame::from_z(ns), turned = bend_to_viewer(frame, ng, wo);
+    const float clearance = std::min(0.01f, 0.5f * std::abs(dot(wo, ng)));
+    EXPECT_GT(height(turned.z, ng, wo), clearance - 1e-5f);
+    EXPECT_NEAR(dot(turned.x, turned.z), 0, 1e-5f);
+    EXPECT_GT(dot(turned.z, ng), 0);
+    if (height(ns, ng, wo) > clearance) {
+      EXPECT_EQ(dot(turned.z, ns), dot(ns, ns));
+      continue;
+    }
+    ++bent;
+    behind += dot(wo, ns) * dot(wo, ng) < 0;
+    const float cosine = dot(turned.z, ns);
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 other = normalize(turned.z + direction() * std::pow(10.0f, -4 * rng.next_float()));
+      if (dot(other, ng) > 0 && height(other, ng, wo) > clearance) {
+        EXPECT_LT(dot(other, ns), cosine + 1e-5f);
+      }
+    }
+  }
+  EXPECT_GT(bent, 500);
+  EXPECT_GT(behind, 300);
 }
 
 TEST(Frame, StaysOrthonormalForEveryTangent) {

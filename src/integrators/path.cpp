@@ -6,6 +6,7 @@
 
 #include "accel/spawn.h"
 #include "integrators/path_record.h"
+#include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
 
 namespace etd {
@@ -46,7 +47,13 @@ const ModelDecl& PathIntegrator::decl() {
         .type = ParamType::kString,
         .default_value = std::string("power"),
         .choices = {"power", "uniform"},
-        .doc = "How lights are chosen for sampling: by their power, or all alike; never changes the mean."}}};
+        .doc = "How lights are chosen for sampling: by their power, or all alike; never changes the mean."},
+       {.name = "shadingnormals",
+        .type = ParamType::kString,
+        .default_value = std::string("exact"),
+        .choices = {"exact", "bent"},
+        .doc = "Shading normals as they are, or bent towards the viewer where a mirror would show the inside of the "
+               "surface, which is black."}}};
   return d;
 }
 
@@ -64,6 +71,7 @@ PathSettings PathIntegrator::settings(const ParamReader& p) {
   s.roulette_depth = p.integer("roulettedepth");
   s.heuristic = mis_heuristic(p.string("misheuristic"));
   s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
+  s.bent_normals = p.string("shadingnormals") == "bent";
   return s;
 }
 
@@ -80,6 +88,7 @@ std::string PathIntegrator::bias() const {
   if (settings_.indirect)
     bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
                         settings_.max_depth);
+  if (settings_.bent_normals) bias += fmt::format("{}shading normals are bent", bias.empty() ? "" : "; ");
   return bias;
 }
 
@@ -197,12 +206,14 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
-    const Shading shading = scene_.shade(surface, rng);
-    const Bsdf& bsdf = shading.closure;
+    Shading shading = scene_.shade(surface, rng);
+    if (settings_.bent_normals) shading.frame = bend_to_viewer(shading.frame, point.ng, wo);
+    const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
+    const Bsdf& bsdf = scatter.bsdf();
     recorder.surface(hit, surface, shading);
     if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
-      out.albedo = bsdf.albedo(shading.frame.to_local(wo));
-      out.normal = face_forward(shading.frame.z, wo);
+      out.albedo = scatter.albedo(wo);
+      out.normal = scatter.visible_normal(wo);
       out.position = point.p - Point3();
       out.depth = path_length;
       out.coverage = 1.0f;
@@ -212,7 +223,6 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
       recorder.end(PathEnd::kDepth);
       break;
     }
-    const SurfaceScatter scatter(bsdf, shading.frame, point.ng);
 
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {

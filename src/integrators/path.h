@@ -22,6 +22,7 @@ struct PathSettings {
   int roulette_depth = 2;                                // first depth at which paths may be ended early
   MisHeuristic heuristic = MisHeuristic::kPower;
   LightChoice light_choice = LightChoice::kPower;
+  bool bent_normals = false;  // materials/bent_normal.h
 };
 
 class PathIntegrator : public PixelIntegrator {

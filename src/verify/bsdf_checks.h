@@ -18,7 +18,8 @@ using Results = std::vector<CheckResult>;
 void check_finite(const ScatterModel& model, Results& out);
 // weight pdf = eval_cos, sample().pdf = pdf(), unit wi, the right sides and lobes; reciprocity and adjointness.
 void check_pointwise(const ScatterModel& model, uint64_t seed, Results& out);
-// Directions (mirror, Snell), probabilities, reciprocity and energy of delta lobes.
+// Directions (mirror, Snell), probabilities, reciprocity and energy of delta lobes; of tilted surfaces instead that
+// importance is adjoint.
 void check_delta(const ScatterModel& model, Results& out);
 // Samples against the density and the integrals of eval_cos over the sphere; energy.
 void check_histograms(const ScatterModel& model, const BsdfBatteryOptions& options, Results& out);

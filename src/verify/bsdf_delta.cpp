@@ -71,6 +71,25 @@ void check_direction(const ScatterModel& m, Vec3 wo, DeltaChecks& c) {
   }
 }
 
+// On a tilted surface the same beams carry radiance and importance, whose values differ by the index and by the factor
+// between f |cos| of the shading and of the geometric normal.
+void check_adjoint(const ScatterModel& m, Vec3 viewer, Worst& adjoint) {
+  for (const DeltaLobe& l : find_delta_lobes(m, viewer, TransportMode::kRadiance, kBothSides)) {
+    const Vec3 light = l.sample.wi;
+    const auto where = [&] { return describe(viewer, TransportMode::kRadiance); };
+    const float factor = sqr(l.sample.eta) * std::abs(dot(light, m.ns) * viewer.z / (dot(viewer, m.ns) * light.z));
+    const auto back = find_delta_lobes(m, light, TransportMode::kImportance, kBothSides);
+    const auto same = std::find_if(back.begin(), back.end(),
+                                   [&](const DeltaLobe& b) { return distance(b.sample.wi, viewer) < 1e-4; });
+    if (same == back.end()) {
+      adjoint.add(l.share < 0.01 ? 0.0 : 1.0, where);
+      continue;
+    }
+    for (int i = 0; i < Spectrum::kLanes; ++i)
+      adjoint.add_relative(value(same->sample)[i], value(l.sample)[i] * factor, where);
+  }
+}
+
 }  // namespace
 
 std::vector<DeltaLobe> find_delta_lobes(const ScatterModel& m, Vec3 wo, TransportMode mode, Lobe sides) {
@@ -90,6 +109,12 @@ std::vector<DeltaLobe> find_delta_lobes(const ScatterModel& m, Vec3 wo, Transpor
 }
 
 void check_delta(const ScatterModel& m, Results& out) {
+  if (m.is_tilted()) {
+    Worst adjoint(m.name, "delta importance is adjoint", 1e-3);
+    for (const Vec3& viewer : test_directions()) check_adjoint(m, viewer, adjoint);
+    out.push_back(adjoint.result());
+    return;
+  }
   DeltaChecks c(m);
   for (const Vec3& wo : test_directions()) check_direction(m, wo, c);
   for (const Worst* w : {&c.probability, &c.direction, &c.sides, &c.radiance}) out.push_back(w->result());

@@ -52,9 +52,32 @@ fault(phase-sign "the phase function is sampled backwards" "HenyeyGreenstein*:La
 edit(phase/henyey_greenstein.h [[const float z = clamp(-cosine, -1.0f, 1.0f)]]
      [[const float z = clamp(FAULT ? cosine : -cosine, -1.0f, 1.0f)]])
 
-fault(shading-normal-leak "light passes through surfaces whose normals disagree" "SurfaceScatter.*:SurfaceDetail.*")
-edit(materials/surface_scatter.h [[return cos_o * cos_i * (dot(wo, ng_) * dot(wi, ng_)) > 0.0f;]]
-     [[return FAULT || cos_o * cos_i * (dot(wo, ng_) * dot(wi, ng_)) > 0.0f;]])
+set(tilted "SurfaceScatter.*:Examples/BsdfBattery.*tilted*")
+closed_forms(tests tilted_normals)
+fault(shading-normal-leak "light from behind the shading normal is not left out" "${tilted}:${tests}")
+edit(materials/surface_scatter.h [[return std::abs(side) > kEdgeOn && local.z * side > 0.0f;]]
+     [[return std::abs(side) > kEdgeOn && (FAULT || local.z * side > 0.0f);]])
+
+fault(viewer-behind-shading-normal "who looks from behind the shading normal sees the other side" "${tilted}:${tests}")
+edit(materials/surface_scatter.h [[side == 0.0f ? 0.0f : std::copysign(local.z, side)]]
+     [[side == 0.0f ? 0.0f : FAULT ? local.z : std::copysign(local.z, side)]])
+
+fault(adjoint-factor-missing "importance leaves out the factor of shading normals" "${tilted}")
+edit(materials/surface_scatter.h [[return importance ? f * std::abs(dot(wi, ng_) / dot(wo, ng_)) : f;]]
+     [[return importance && !FAULT ? f * std::abs(dot(wi, ng_) / dot(wo, ng_)) : f;]])
+edit(materials/surface_scatter.h [[std::abs(light.z / side * (dot(s->wi, ng_) / dot(wo, ng_)))]]
+     [[std::abs(light.z / side * (FAULT ? 1.0f : dot(s->wi, ng_) / dot(wo, ng_)))]])
+
+fault(viewer-density-not-shared "two viewers of one local direction each have its whole density" "${tilted}")
+edit(materials/surface_scatter.h [[(has_twin(wi) ? 2.0f : 1.0f)]] [[(!FAULT && has_twin(wi) ? 2.0f : 1.0f)]])
+
+fault(viewers-not-all-reached "of two viewers of one local direction only one is sampled" "${tilted}")
+edit(materials/surface_scatter.h [[!(both && rng.next_float() < 0.5f)]] [[!(both && !FAULT && rng.next_float() < 0.5f)]])
+
+closed_forms(tests bent_normals)
+fault(bent-normal-below "bent normals leave mirror directions below the surface" "BentNormal.*:${tests}")
+edit(materials/bent_normal.cpp [[e = std::min(kClearance, 0.5 * c);]]
+     [[e = FAULT ? -0.5 * c : std::min(kClearance, 0.5 * c);]])
 
 # ---- sampling
 
