@@ -13,8 +13,8 @@ constexpr double kClearance = 0.01;
 // wo - ng and across both, with c = wo.ng, r.ng >= e is
 //     b0 x^2 >= b1 y^2 + b2 z^2,  b0 = 1 - e, b1 = 1 + e, b2 = c + e,
 // an elliptical cone about wo + ng. Its point nearest to n solves (1 + t diag(b0, -b1, -b2)) n' = n (Lagrange), that is
-// n' along (|x|, q y / (1 + (1 -+ q) b1 / b0), q z / (1 + (1 -+ q) b2 / b0)), - where x > 0, with the one q > 0 at which n'
-// is on the cone.
+// n' along (|x|, q y / (1 + (1 -+ q) b1 / b0), q z / (1 + (1 -+ q) b2 / b0)), - where x > 0, with the one q > 0 at
+// which n' is on the cone.
 Frame bend_to_viewer(const Frame& frame, Vec3 ng_float, Vec3 wo_float) {
   const float side = dot(wo_float, ng_float) < 0.0f ? -1.0f : 1.0f;
   const Vec3d wo = to_double(wo_float), ng = to_double(ng_float) * double{side}, n = to_double(frame.z) * double{side};
