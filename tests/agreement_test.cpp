@@ -37,7 +37,7 @@ const Scene kScenes[] = {{"conductor_box", 320, 128, 128, 128, 0},
                          {"lamps", 1024, 512, 512, 0, 512},
                          {"moving_lamps", 640, 896, 640},
                          {"window_room", 1024, 320, 320},
-                         {"bumpy_room", 512, 704, 224},
+                         {"bumpy_room", 704, 704, 288},
                          {"bumpy_glass", 320, 256, 160}};
 
 // All are compared with the first.
