@@ -164,6 +164,7 @@ TEST(Driver, StoppedBeforeTheFirstItemGivesABlackImageOfInfiniteError) {
   EXPECT_EQ(result.stopped_by, StoppedBy::kInterrupt);
   EXPECT_EQ(result.rays.total(), 0u);
   EXPECT_EQ(result.error, HUGE_VAL);
+  EXPECT_EQ(result.empty, 1.0);
 }
 
 TEST(StoppingByError, IsTestedAtPowersOfTwoThatEndPasses) {
@@ -322,6 +323,30 @@ TEST(Driver, TheFilmIsShownInTheMidstOfPassesWhileNothingRuns) {
     }
     EXPECT_GE(onlooker.looks, 2);
   }
+}
+
+TEST(Driver, WithoutMemoryWhatIsDoneStays) {
+  class NoMemoryLater : public NoiseIntegrator {
+   public:
+    using NoiseIntegrator::NoiseIntegrator;
+    void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override {
+      if (pass.index == 2 && item == 5) throw std::bad_alloc();
+      NoiseIntegrator::render(pass, item, film, counts);
+    }
+  };
+  NoMemoryLater integrator(kFilm, 4);
+  RenderObserver nobody;
+  Film film(kFilm), before(kFilm);
+  const RenderResult result = render(integrator, film, {.spp = 64, .threads = 1}, nobody);
+  EXPECT_EQ(result.stopped_by, StoppedBy::kMemory);
+  EXPECT_EQ(result.spp, 4u);
+  EXPECT_TRUE(result.unequal);
+  EXPECT_EQ(result.empty, 0.0);
+  render(integrator, before, {.spp = 4, .threads = 1}, nobody);
+  const PixelBounds& crop = film.settings().crop;
+  const int x = crop.x1 - 1, y = crop.y1 - 1;  // in the last item, which the pass did not reach
+  EXPECT_EQ(film.total(x, y).count, 4);
+  EXPECT_EQ(film.total(x, y).direct, before.total(x, y).direct);
 }
 
 TEST(Driver, ExceptionsOfAnIntegratorPassThrough) {

@@ -1,11 +1,10 @@
 #include "render/stats.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-
 #include <nlohmann/json.hpp>
 
 #include "render/interrupt.h"
+#include "render/memory.h"
 
 namespace etd {
 namespace {
@@ -50,17 +49,6 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   EXPECT_EQ(json["paths"], 7);
   EXPECT_EQ(json["peak_bytes"], stats.peak_bytes);
   EXPECT_EQ(json["spp"], 64);
-}
-
-TEST(Interrupts, AreRememberedWithTheirExitCode) {
-  for (const auto& [signal_number, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
-    const InterruptScope scope;
-    EXPECT_FALSE(scope.stop());
-    EXPECT_EQ(scope.exit_code(), 0);
-    raise(signal_number);
-    EXPECT_TRUE(scope.stop());
-    EXPECT_EQ(scope.exit_code(), code);
-  }
 }
 
 }  // namespace

@@ -71,6 +71,24 @@ TEST(Tev, NobodyThereIsAMessage) {
   EXPECT_NE(TevViewer({"no.such.host.invalid", "14158"}).error(), "");
 }
 
+TEST(Tev, AViewerThatTakesNothingDoesNotHoldTheExit) {
+  TevPeer peer;
+  peer.listen();
+  TevViewer viewer({"127.0.0.1", peer.port()});
+  ASSERT_EQ(viewer.error(), "");
+  peer.accept();
+  std::string problem;
+  std::thread showing([&] { problem = viewer.show("a", numbered_image(2000, 1500, 1)); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto hurried = std::chrono::steady_clock::now();
+  viewer.hurry();
+  showing.join();
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - hurried;
+  EXPECT_EQ(problem, "the viewer tev at 127.0.0.1 takes no data");
+  EXPECT_GT(waited.count(), 1.9);
+  EXPECT_LT(waited.count(), 6.0);
+}
+
 TEST(Tev, ALostViewerIsAMessage) {
   TevPeer peer;
   peer.listen();

@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "printing.h"
+#include "render/memory.h"
 #include "render/provenance.h"
 #include "scene/scene.h"
 
@@ -53,15 +54,16 @@ void print_info(const PreparedRender& prepared) {
   answer("memory\n");
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
   const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
-  const size_t film = Film::bytes_for(film_settings(s));
+  const MemoryForecast forecast = forecast_memory(prepared);
+  const size_t parts = geometry + accelerator + textures + lights + forecast.film;
   if (scene.textures.cache)
     row("", fmt::format("images of textures in tiles of {}, at most {} in memory", s.textures.cache_folder.string(),
                         bytes_text(scene.textures.cache_limit)));
   for (const auto& [name, bytes] :
        {std::pair("geometry", geometry), std::pair("accelerator", accelerator), std::pair("textures", textures),
-        std::pair("lights", lights), std::pair("film", film)})
+        std::pair("lights", lights), std::pair("film", forecast.film),
+        std::pair("program", forecast.peak - std::min(forecast.peak, parts)), std::pair("together", forecast.peak)})
     answer("  {:<12}{}\n", name, bytes_text(bytes));
-  answer("  {:<12}{}\n", "together", bytes_text(geometry + accelerator + textures + lights + film));
 }
 
 // What an image knows of itself, and a warning when it is marked.

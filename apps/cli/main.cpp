@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "params/diagnostics.h"
 #include "printing.h"
+#include "render/interrupt.h"
 #include "render/version.h"
 
 namespace {
@@ -65,6 +66,7 @@ int say_parse_result(const CLI::App& app, const CLI::ParseError& result) {
 
 int main(int argc, char** argv) {
   etd::cli::prepare_standard_streams();
+  const etd::EndOnSignal ending;  // before any work: a signal is answered in words
   CLI::App app{"Etendue, a reference renderer for Monte Carlo light transport.", "etendue"};
   app.set_version_flag("--version", std::string("etendue ") + etd::version());
   app.require_subcommand(1);
@@ -82,11 +84,13 @@ int main(int argc, char** argv) {
   if (report_unknown_command(app, argc > 1 ? argv[1] : nullptr)) return etd::cli::kBadInput;
   try {
     app.parse(argc, argv);
-    return etd::cli::code_after_answers(run(), etd::cli::kInternalError);
+    const int code = run();
+    etd::cli::tell_of_refused_threads();
+    return etd::cli::code_after_answers(code, etd::cli::kInternalError);
   } catch (const CLI::ParseError& e) {
     return say_parse_result(app, e);
   } catch (const std::bad_alloc&) {
-    etd::cli::tell("etendue: out of memory\n");
+    etd::cli::tell("etendue: out of memory; `etendue info SCENE` says how much a render takes\n");
   } catch (const std::exception& e) {
     etd::cli::tell("etendue: internal error: {}\n", e.what());
   }

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "render/workers.h"
+
 namespace etd::cli {
 namespace {
 
@@ -28,6 +30,13 @@ void prepare_standard_streams() {
 void answer_text(std::string_view text) {
   g_answered = true;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && g_failure == 0) g_failure = errno;
+}
+
+void tell_of_refused_threads() {
+  static bool told = false;
+  if (told || !threads_were_refused()) return;
+  told = true;
+  tell("etendue: warning: the system refuses threads; those that can be had do the work, which only takes longer\n");
 }
 
 int code_after_answers(int code, int failed) {

@@ -18,6 +18,9 @@ void tell(fmt::format_string<Args...> format, Args&&... args) {
   print_or_drop(stderr, format, std::forward<Args>(args)...);
 }
 
+// Once: that the system gives fewer threads than were wanted.
+void tell_of_refused_threads();
+
 // To standard output, beside a product that is a file.
 template <class... Args>
 void report(fmt::format_string<Args...> format, Args&&... args) {

@@ -12,6 +12,7 @@
 #include "printing.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
+#include "render/memory.h"
 #include "render/provenance.h"
 #include "render/session.h"
 #include "scene/scene.h"
@@ -70,6 +71,7 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
   return fmt::format("{} ({})", settings.spp_unlimited ? std::string() : fmt::format(" of {}", settings.spp),
                      reason == StoppedBy::kInterrupt ? "interrupted"
                      : reason == StoppedBy::kTime    ? "time is over"
+                     : reason == StoppedBy::kMemory  ? "memory is used up"
                                                      : "error reached");
 }
 
@@ -79,6 +81,12 @@ void print_summary(const PreparedRender& prepared, const RenderResult& result) {
          result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
          short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
          error_text(result.error));
+}
+
+void report_empty_pixels(const RenderResult& result) {
+  if (result.empty > 0)
+    tell("etendue: warning: stopped within the first pass: {:.1f} % of the picture is empty, black without a sample\n",
+         100 * result.empty);
 }
 
 void report_invalid_samples(const PreparedRender& prepared, const RenderResult& result) {
@@ -92,13 +100,14 @@ void report_invalid_samples(const PreparedRender& prepared, const RenderResult& 
 
 // Writes everything even when one file fails, since an image costs more than a message.
 bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const RowImage& image,
-               const RenderStats& stats) {
+               RenderStats stats) {
   bool ok = true;
   const auto note = [&ok](const std::string& path, const std::string& problem) {
     ok = ok && problem.empty();
     problem.empty() ? report("{}\n", path) : tell("etendue: {}\n", problem);
   };
   for (const std::string& path : outputs) note(path, write_output(path, image, args.watch.exposure));
+  stats.peak_bytes = peak_memory_bytes();
   if (!args.stats.empty()) note(args.stats, write_file(args.stats, stats_json(stats)));
   return ok;
 }
@@ -118,6 +127,7 @@ int render_scene(const Arguments& args) {
     prepared = prepare_render(description, args.overrides, diagnostics);
   }
   print_diagnostics(diagnostics);
+  tell_of_refused_threads();
   if (!prepared) return kBadInput;
 
   std::vector<std::string> outputs = args.outputs;
@@ -130,10 +140,15 @@ int render_scene(const Arguments& args) {
   RenderObserver& observer = watchers.begin(std::filesystem::path(args.scene).filename().string());
   const FinishedRender finished = run_render(*prepared, observer, &interrupts.stop());
   watchers.end_progress();
+  if (finished.result.empty == 1) {
+    tell("etendue: stopped before any pixel was done, so no picture is written\n");
+    return interrupts.exit_code() != 0 ? interrupts.exit_code() : kInternalError;
+  }
   RenderStats stats = finished_stats(*prepared, finished);
   stats.load_seconds = load_seconds;
   const bool written = write_all(args, outputs, finished_rows(*prepared, finished, args.replicate_layers), stats);
   print_summary(*prepared, finished.result);
+  report_empty_pixels(finished.result);
   report_invalid_samples(*prepared, finished.result);
   watchers.end(finished.film);
   const TextureCache* cache = prepared->scene->textures.cache.get();
@@ -142,8 +157,8 @@ int render_scene(const Arguments& args) {
          cache->read_error());
     return kInternalError;
   }
+  if (!written || finished.result.stopped_by == StoppedBy::kMemory) return kInternalError;
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
-  if (!written) return kInternalError;
   return args.strict && finished.result.invalid.total() > 0 ? kInvalidSamples : kOk;
 }
 

@@ -13,6 +13,10 @@ constexpr std::chrono::milliseconds kPreviewInterval{3000}, kViewerInterval{1000
 
 }  // namespace
 
+Watchers::~Watchers() {
+  if (viewer_) viewer_->hurry();
+}
+
 std::string Watchers::connect() {
   if (options_.tev.empty()) return {};
   const std::optional<TevAddress> address = parse_tev_address(options_.tev);
@@ -49,6 +53,7 @@ void Watchers::end_progress() {
 }
 
 void Watchers::end(const Film& film) {
+  if (viewer_) viewer_->hurry();
   for (const auto& stream : streams_) stream->finish(film);
 }
 

@@ -21,6 +21,8 @@ struct WatchOptions {
 class Watchers {
  public:
   explicit Watchers(const WatchOptions& options) : options_(options) {}
+  // A viewer that takes nothing does not hold the exit.
+  ~Watchers();
 
   // Connects to the viewer. Returns what went wrong, or an empty string.
   std::string connect();

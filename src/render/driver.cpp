@@ -3,6 +3,7 @@
 #include <cassert>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <optional>
 
 #include "render/items.h"
@@ -32,6 +33,14 @@ struct SharedCounts {
   RayCounts rays() const { return {camera, indirect, shadow}; }
 };
 
+double share_without_samples(const Film& film) {
+  const PixelBounds& crop = film.settings().crop;
+  double empty = 0, all = 0;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x, ++all) empty += film.total(x, y).count == 0 ? 1 : 0;
+  return all > 0 ? empty / all : 0;
+}
+
 class RenderLoop {
  public:
   RenderLoop(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
@@ -43,11 +52,12 @@ class RenderLoop {
         samples_(settings.spp / replicates_),
         observer_(observer),
         stop_(stop),
-        threads_(settings.threads) {}
+        workers_(settings.threads) {}
 
   RenderResult run();
 
  private:
+  void run_passes();
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   bool stop_requested() const { return stop_ && stop_->load(std::memory_order_relaxed); }
   bool over(const Pass& pass) const { return stop_requested() || (pass.index > 0 && seconds() >= settings_.seconds); }
@@ -66,7 +76,7 @@ class RenderLoop {
   const uint32_t replicates_, samples_;
   RenderObserver& observer_;
   const std::atomic<bool>* stop_;
-  ThreadLimit threads_;
+  Workers workers_;
   const Clock::time_point start_ = Clock::now();
   SharedCounts counts_;
   double seconds_per_sample_ = 0;  // of a replicate, in the last complete pass
@@ -76,12 +86,26 @@ class RenderLoop {
 RenderResult RenderLoop::run() {
   if (stop_requested()) {
     result_.stopped_by = StoppedBy::kInterrupt;
-    return result_;
+  } else {
+    try {
+      run_passes();
+    } catch (const std::bad_alloc&) {  // each pixel has whole samples all the same
+      result_.unequal = true;
+      result_.stopped_by = StoppedBy::kMemory;
+    }
   }
+  if (result_.spp == 0) result_.empty = share_without_samples(film_);
+  result_.rays = counts_.rays();
+  result_.invalid = counts_.invalid;
+  result_.seconds = seconds();
+  return result_;
+}
+
+void RenderLoop::run_passes() {
   for (Pass pass = first_pass(samples_); pass.begin < samples_; pass = next_pass(pass, samples_)) {
     const double begun = seconds();
     const bool complete = render_pass(pass);
-    result_.error = estimated_error(film_, threads_);
+    result_.error = estimated_error(film_, workers_);
     if (!complete) {
       result_.unequal = counts_.items > 0;
       result_.stopped_by = stop_requested() ? StoppedBy::kInterrupt : StoppedBy::kTime;
@@ -99,10 +123,6 @@ RenderResult RenderLoop::run() {
     }
     show_film();
   }
-  result_.rays = counts_.rays();
-  result_.invalid = counts_.invalid;
-  result_.seconds = seconds();
-  return result_;
 }
 
 // False when items were left out.
@@ -112,7 +132,7 @@ bool RenderLoop::render_pass(const Pass& pass) {
   counts_.items = 0;
   std::atomic<size_t> next{0};
   while (true) {
-    run_items(threads_, next, items, [&](size_t item) {
+    run_items(workers_, next, items, [&](size_t item) {
       ItemCounts counts;
       integrator_.render(pass, item, film_, counts);
       counts_.add(counts);

@@ -45,14 +45,15 @@ class RenderObserver {
   virtual void on_film(const Film&) {}
 };
 
-// What ended a render: the last sample, the caller's `stop`, the clock, or the error that was asked for.
-enum class StoppedBy { kSamples, kInterrupt, kTime, kError };
+// What ended a render: the last sample, the caller's `stop`, the clock, the error that was asked for, or no memory.
+enum class StoppedBy { kSamples, kInterrupt, kTime, kError, kMemory };
 
 struct RenderResult {
   RayCounts rays;
   InvalidSamples invalid;  // that were left out of the film
   uint32_t spp = 0;        // samples that every pixel has
   StoppedBy stopped_by = StoppedBy::kSamples;
+  double empty = 0;          // share of the pixels that have no sample: a render may be stopped within its first pass
   bool unequal = false;      // some pixels have more samples than others: a pass was cut off
   uint32_t error_tests = 0;  // how often the error could have stopped it
   double seconds = 0;
@@ -70,7 +71,7 @@ bool tests_error(uint32_t samples_per_replicate, uint32_t replicates);
 
 // Renders into an empty film. When `stop` becomes true, or a pass that did not look too long turns out to be when the
 // time is over, running items finish, the others are left out, and the film holds a valid estimate of unequal sample
-// counts. Exceptions of the integrator pass through.
+// counts; so it does when memory runs out. Other exceptions of the integrator pass through.
 RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
                     const std::atomic<bool>* stop = nullptr);
 

@@ -1,13 +1,26 @@
 #include "render/film_stream.h"
 
+#include <fmt/format.h>
+
+#include <new>
+#include <system_error>
+
 namespace etd {
+namespace {
+
+constexpr const char* kNoMemory = "there is no memory for a picture to be shown";
+
+}  // namespace
 
 FilmStream::FilmStream(Receiver receiver, Report report, std::chrono::milliseconds interval)
-    : receiver_(std::move(receiver)),
-      report_(std::move(report)),
-      interval_(interval),
-      next_(Clock::now() + interval),
-      worker_([this] { work(); }) {}
+    : receiver_(std::move(receiver)), report_(std::move(report)), interval_(interval), next_(Clock::now() + interval) {
+  try {
+    worker_ = std::thread([this] { work(); });
+  } catch (const std::system_error& error) {
+    report_(fmt::format("the picture cannot be shown before it is complete, for want of a thread: {}",
+                        error.code().message()));
+  }
+}
 
 FilmStream::~FilmStream() {
   {
@@ -15,11 +28,11 @@ FilmStream::~FilmStream() {
     ending_ = true;
   }
   changed_.notify_all();
-  worker_.join();
+  if (worker_.joinable()) worker_.join();
 }
 
 bool FilmStream::wants_film() const {
-  if (busy_.load(std::memory_order_relaxed)) return false;
+  if (!worker_.joinable() || busy_.load(std::memory_order_relaxed)) return false;
   return (pass_done_ && !pass_shown_) || Clock::now() >= next_;
 }
 
@@ -32,18 +45,40 @@ void FilmStream::on_film(const Film& film) {
   pass_shown_ = pass_done_;
 }
 
+// A picture to look at is not worth the render.
 void FilmStream::send(const Film& film) {
-  LayeredImage picture = make_picture(film);
-  {
+  try {
+    LayeredImage picture = make_picture(film);
     const std::lock_guard lock(mutex_);
     if (failed_) return;
     picture_ = std::move(picture);
     busy_ = true;
+  } catch (const std::bad_alloc&) {
+    give_up(kNoMemory);
   }
   changed_.notify_all();
 }
 
+void FilmStream::give_up(const std::string& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (failed_) return;
+    failed_ = busy_ = true;
+  }
+  report_(problem);
+}
+
 void FilmStream::finish(const Film& film) {
+  if (!worker_.joinable()) {
+    std::string problem;
+    try {
+      problem = receive(make_picture(film));
+    } catch (const std::bad_alloc&) {
+      problem = kNoMemory;
+    }
+    if (!problem.empty()) report_(problem);
+    return;
+  }
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !busy_ || failed_; });

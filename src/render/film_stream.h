@@ -20,11 +20,12 @@ class FilmStream : public RenderObserver {
  public:
   // Takes the picture; returns what went wrong, or an empty string. After a failure it is not called again.
   using Receiver = std::function<std::string(const LayeredImage& picture)>;
-  // Told once, on another thread, when the receiver fails.
+  // Told once, on another thread, when the receiver fails or there is no memory for a picture.
   using Report = std::function<void(const std::string& problem)>;
 
   // The first picture is sent when the first pass is done or `interval` has passed, and the next one `interval` after
-  // that or later: when the receiver is still busy, or copying takes more than a twentieth of the time.
+  // that or later: when the receiver is still busy, or copying takes more than a twentieth of the time. Where no thread
+  // can be had, the receiver gets the final image alone.
   FilmStream(Receiver receiver, Report report, std::chrono::milliseconds interval);
   // Waits for the receiver.
   ~FilmStream() override;
@@ -40,6 +41,7 @@ class FilmStream : public RenderObserver {
   void work();
   std::string receive(const LayeredImage& picture) const;
   void send(const Film& film);
+  void give_up(const std::string& problem);
 
   const Receiver receiver_;
   const Report report_;

@@ -1,12 +1,10 @@
 // Runs independent items on all threads: the one parallel loop of this room.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 
 #include "core/flush_to_zero.h"
-#include "render/threads.h"
+#include "render/workers.h"
 
 namespace etd {
 
@@ -15,9 +13,9 @@ namespace etd {
 // call goes on from there. Items run with flush-to-zero set. An exception stops the others in the same way and passes
 // through.
 template <class F>
-void run_items(ThreadLimit& threads, std::atomic<size_t>& next, size_t n, F f) {
+void run_items(Workers& workers, std::atomic<size_t>& next, size_t n, F f) {
   std::atomic<bool> halted{false};
-  const auto work = [&](int) {
+  workers.run([&] {
     const FlushToZero flush;
     try {
       while (!halted) {
@@ -29,15 +27,14 @@ void run_items(ThreadLimit& threads, std::atomic<size_t>& next, size_t n, F f) {
       halted = true;
       throw;
     }
-  };
-  threads.run([&] { tbb::parallel_for(0, threads.count(), work, tbb::simple_partitioner()); });
+  });
 }
 
 // All items from 0 to n - 1.
 template <class F>
-void for_each_item(ThreadLimit& threads, size_t n, F f) {
+void for_each_item(Workers& workers, size_t n, F f) {
   std::atomic<size_t> next{0};
-  run_items(threads, next, n, [&f](size_t i) { return f(i), true; });
+  run_items(workers, next, n, [&f](size_t i) { return f(i), true; });
 }
 
 }  // namespace etd

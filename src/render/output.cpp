@@ -106,6 +106,8 @@ const char* stopped_by_name(StoppedBy reason) {
       return "time";
     case StoppedBy::kError:
       return "error";
+    case StoppedBy::kMemory:
+      return "memory";
   }
   return "";
 }
@@ -137,13 +139,16 @@ void append(const Rgb& values, std::vector<float>& out) { out.insert(out.end(), 
 
 }  // namespace
 
-RowImage layer_rows(const Film& film, bool replicate_layers) {
-  const FilmSettings& settings = film.settings();
-  const uint32_t replicates = replicate_layers ? settings.replicates : 0;
+ImageHeader layers_header(const FilmSettings& settings, bool replicate_layers) {
   std::vector<std::string> channels = channel_names(settings);
-  for (uint32_t r = 0; r < replicates; ++r)
+  for (uint32_t r = 0; replicate_layers && r < settings.replicates; ++r)
     for (const char* c : {"R", "G", "B"}) channels.push_back(fmt::format("replicate{}.{}", r, c));
-  return {header_of(settings, std::move(channels)), [&film, replicates](int row, std::vector<float>& out) {
+  return header_of(settings, std::move(channels));
+}
+
+RowImage layer_rows(const Film& film, bool replicate_layers) {
+  const uint32_t replicates = replicate_layers ? film.settings().replicates : 0;
+  return {layers_header(film.settings(), replicate_layers), [&film, replicates](int row, std::vector<float>& out) {
             const PixelBounds& crop = film.settings().crop;
             for (int x = crop.x0, y = crop.y0 + row; x < crop.x1; ++x) {
               append_pixel(film, x, y, out);
@@ -186,6 +191,7 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("spp", static_cast<int>(result.spp));
   add("spp_planned", settings.spp_unlimited ? MetadataValue(std::string("unlimited")) : static_cast<int>(settings.spp));
   add("spp_unequal", std::string(result.unequal ? "true" : "false"));
+  if (result.empty > 0) add("empty", result.empty);
   if (settings.seconds < HUGE_VAL) add("seconds_limit", settings.seconds);
   if (settings.error > 0) add("error_goal", settings.error);
   add("imaging_ratio", settings.sensor.imaging_ratio);

@@ -21,6 +21,8 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 // `replicate_layers` adds replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is
 // the picture. The film must outlive the rows.
 RowImage layer_rows(const Film& film, bool replicate_layers = false);
+// What such an image has, without the film.
+ImageHeader layers_header(const FilmSettings& settings, bool replicate_layers);
 // The same in memory.
 LayeredImage make_layers(const Film& film, bool replicate_layers = false);
 
@@ -29,7 +31,8 @@ LayeredImage make_picture(const Film& film);
 
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
 // scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
-// is biased ("nothing" when nothing is), invalid samples ("none" when there are none) and what stopped it.
+// is biased ("nothing" when nothing is), the share of pixels without a sample if there are any, invalid samples ("none"
+// when there are none) and what stopped it.
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result);
 

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "integrators/make_integrator.h"
+#include "render/memory.h"
 #include "render/provenance.h"
 #include "render/threads.h"
 #include "scene/compile.h"
@@ -50,7 +51,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   const RenderSettings& settings = prepared.settings;
   check_film_memory(settings, diagnostics);
 
-  ThreadLimit threads(settings.threads);  // building the accelerator is parallel too
+  TbbThreads threads(settings.threads);  // building the accelerator is parallel too
   prepared.scene = std::move(compiled);
   if (!prepared.scene)
     prepared.scene = threads.run([&] {
@@ -77,6 +78,7 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
   FilmSettings film = film_settings(settings);
   film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
   FinishedRender finished{Film(film), {}};
+  const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
   const DriverSettings driver{
       .spp = settings.spp, .threads = settings.threads, .seconds = settings.seconds, .error = settings.error};
   finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);

@@ -44,6 +44,7 @@ struct FinishedRender {
   RenderResult result;
 };
 
+// Throws std::bad_alloc before anything is rendered where there is no memory for the film and for writing it.
 // Renders until all samples are taken, another limit of the settings is reached or `stop` becomes true.
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
 

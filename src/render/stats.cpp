@@ -1,7 +1,5 @@
 #include "render/stats.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -20,12 +18,6 @@ void count_pixels(const Film& film, RenderStats& stats) {
   stats.paths = static_cast<uint64_t>(samples);
   stats.rays_per_pixel_mean = crop.empty() ? 0 : rays / (static_cast<double>(crop.width()) * crop.height());
   stats.rays_per_pixel_max = most;
-}
-
-uint64_t peak_memory_bytes() {
-  struct rusage usage = {};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 std::string stats_json(const RenderStats& s) {

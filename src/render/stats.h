@@ -21,8 +21,6 @@ struct RenderStats {
 
 // Fills in what the film knows: paths and rays per pixel.
 void count_pixels(const Film& film, RenderStats& stats);
-// The largest memory the process has held so far, in bytes.
-uint64_t peak_memory_bytes();
 // {"seconds": {"load", "build", "render"}, "rays": {"camera", "indirect", "shadow"}, "rays_per_pixel": {"mean", "max"},
 // "invalid": {"nan", "infinite", "negative"}, "paths", "peak_bytes", "texture_bytes", "spp"}, ending with a newline.
 std::string stats_json(const RenderStats& stats);

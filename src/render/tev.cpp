@@ -2,13 +2,13 @@
 // own length in bytes (uint32, itself included) and its type (a byte). Strings end with a zero byte.
 #include "render/tev.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <charconv>
@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "packets are written i
 enum class PacketType : uint8_t { kCreateImage = 4, kUpdateImage = 6 };  // the third version of updating
 
 constexpr int kConnectMilliseconds = 5000;
-constexpr int kSendSeconds = 10;
+constexpr std::chrono::seconds kPatience{10}, kPatienceAtTheEnd{2};
 constexpr size_t kPixelsInPacket = 1 << 16;
 
 class Packet {
@@ -91,10 +91,6 @@ int connect_to(const addrinfo& address) {
     else if (ready < 0 || ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &failure, &size) != 0)
       failure = errno;
   }
-  const timeval patience{kSendSeconds, 0};
-  if (failure == 0 && (::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK) != 0 ||
-                       ::setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience) != 0))
-    failure = errno;
   if (failure == 0) return fd;
   ::close(fd);
   errno = failure;
@@ -162,15 +158,33 @@ std::string TevViewer::show(const std::string& name, const LayeredImage& image) 
   return {};
 }
 
+void TevViewer::hurry() { hurried_at_ = Clock::now().time_since_epoch().count(); }
+
+bool TevViewer::out_of_patience(Clock::time_point last_taken) const {
+  const Clock::time_point now = Clock::now();
+  const Clock::rep hurried = hurried_at_;
+  if (hurried == 0) return now - last_taken > kPatience;
+  const Clock::time_point since{Clock::duration(hurried)};
+  return now - since > kPatience || now - std::max(last_taken, since) > kPatienceAtTheEnd;
+}
+
 std::string TevViewer::send(const std::string& packet) {
+  Clock::time_point last_taken = Clock::now();
   for (size_t sent = 0; sent < packet.size();) {
-    const ssize_t n = ::send(socket_, packet.data() + sent, packet.size() - sent, MSG_NOSIGNAL);
-    if (n >= 0)
+    const ssize_t n = ::send(socket_, packet.data() + sent, packet.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n > 0) {
       sent += static_cast<size_t>(n);
-    else if (errno == EAGAIN || errno == EWOULDBLOCK)
-      return fmt::format("the viewer tev at {} has taken no data for {} seconds", address_.host, kSendSeconds);
-    else if (errno != EINTR)
+      last_taken = Clock::now();
+    } else if (n < 0 && errno == EINTR) {
+      continue;
+    } else if (n < 0 && errno != EAGAIN && errno != EWOULDBLOCK) {
       return fmt::format("the viewer tev at {} is lost: {}", address_.host, std::strerror(errno));
+    } else {
+      constexpr int kLookAroundMilliseconds = 100;  // whether there is a hurry by now
+      pollfd waiting{socket_, POLLOUT, 0};
+      ::poll(&waiting, 1, kLookAroundMilliseconds);
+    }
+    if (out_of_patience(last_taken)) return fmt::format("the viewer tev at {} takes no data", address_.host);
   }
   return {};
 }

@@ -2,6 +2,8 @@
 // that is needed: make an image, replace its pixels.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,15 +30,22 @@ class TevViewer {
 
   const std::string& error() const { return error_; }
   // Sends all channels of the image under this name: the first time as a new image of the full size, black outside of
-  // the crop. Returns what went wrong, or an empty string; then the viewer is lost.
+  // the crop. Returns what went wrong, or an empty string; then the viewer is lost. Waits for a viewer that takes
+  // nothing for ten seconds at most.
   std::string show(const std::string& name, const LayeredImage& image);
+  // The program wants to end: from now on everything together may take ten seconds, and two without that anything is
+  // taken. Called by any thread.
+  void hurry();
 
  private:
+  using Clock = std::chrono::steady_clock;
   std::string send(const std::string& packet);
+  bool out_of_patience(Clock::time_point last_taken) const;
 
   TevAddress address_;
   int socket_ = -1;
   bool created_ = false;
+  std::atomic<Clock::rep> hurried_at_{0};  // since the clock's epoch; 0: it was not
   std::string error_;
 };
 

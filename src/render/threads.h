@@ -1,28 +1,22 @@
-// How many threads work: one object around whatever runs in parallel.
+// How many threads oneTBB uses, which Embree builds with.
 #pragma once
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <thread>
+#include "render/workers.h"
 
 namespace etd {
 
-// 0 means all cores.
-inline int thread_count(int requested) {
-  return requested > 0 ? requested : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-// Runs parallel work on the given number of threads, even when that is more than there are cores.
-class ThreadLimit {
+// Runs what is parallel inside of oneTBB on the given number of threads, even when that is more than there are cores.
+// oneTBB ends the program when the system refuses it a thread. So it is allowed some only where twice as many can be
+// had: those that were tried may not have gone yet when it starts its own.
+class TbbThreads {
  public:
-  explicit ThreadLimit(int threads)
-      : count_(thread_count(threads)),
+  explicit TbbThreads(int threads)
+      : count_(can_have_threads(2 * (thread_count(threads) - 1)) ? thread_count(threads) : 1),
         control_(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(count_)),
         arena_(count_) {}
-
-  int count() const { return count_; }
 
   template <class F>
   auto run(F&& f) {

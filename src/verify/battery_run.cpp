@@ -1,14 +1,13 @@
 #include "verify/battery_run.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "render/threads.h"
+#include "render/workers.h"
 #include "verify/statistics.h"
 
 namespace etd {
@@ -55,21 +54,16 @@ BatteryRun run_battery(const std::vector<BatterySubject>& subjects, BatteryOptio
   std::vector<Slot> slots(subjects.size());
   std::mutex mutex;
   size_t done = 0;
-  ThreadLimit limit(threads);
-  limit.run([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, subjects.size(), 1),
-        [&](const tbb::blocked_range<size_t>& range) {
-          for (size_t i = range.begin(); i < range.end() && !stop; ++i) {
-            const auto start = std::chrono::steady_clock::now();
-            slots[i].results = run_subject(subjects[i], options);
-            slots[i].seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            slots[i].ran = true;
-            const std::lock_guard lock(mutex);
-            progress(++done, subjects.size(), subjects[i].family + " " + subjects[i].name);
-          }
-        },
-        tbb::simple_partitioner());
+  std::atomic<size_t> next{0};
+  Workers(threads).run([&] {
+    for (size_t i = next++; i < subjects.size() && !stop; i = next++) {
+      const auto start = std::chrono::steady_clock::now();
+      slots[i].results = run_subject(subjects[i], options);
+      slots[i].seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      slots[i].ran = true;
+      const std::lock_guard lock(mutex);
+      progress(++done, subjects.size(), subjects[i].family + " " + subjects[i].name);
+    }
   });
 
   BatteryRun run;

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -126,9 +127,11 @@ struct Accelerator::Impl {
 
 void Accelerator::Impl::open_device() {
   device = rtcNewDevice(nullptr);
-  if (!device)
-    throw std::runtime_error(
-        fmt::format("cannot open Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
+  if (!device) {
+    const RTCError why = rtcGetDeviceError(nullptr);
+    if (why == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error(fmt::format("cannot open Embree (error {})", static_cast<int>(why)));
+  }
   rtcSetDeviceErrorFunction(
       device,
       [](void* self, RTCError code, const char* message) {
