@@ -1,5 +1,6 @@
 #include "render/memory.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -39,6 +40,8 @@ uint64_t memory_bytes() { return status_bytes("VmRSS:"); }
 
 uint64_t peak_memory_bytes() { return status_bytes("VmHWM:"); }
 
+void return_freed_memory() { ::malloc_trim(0); }
+
 size_t writing_bytes(const ImageHeader& image) {
   constexpr size_t kCopies = 5;  // as floats, as what is stored, and in the encoder while it compresses them
   return kCopies * strip_bytes(image) + 16 * kMiB;
@@ -57,6 +60,7 @@ MemoryForecast forecast_memory(const PreparedRender& prepared) {
   constexpr size_t kCopies = 3, kEncoders = 9 * kMiB, kOfThread = kMiB / 2;
   forecast.writing = kCopies * strip_bytes(layers_header(film, false)) + kEncoders;
   const size_t threads = static_cast<size_t>(thread_count(prepared.settings.threads));
+  return_freed_memory();
   const size_t added = forecast.film + forecast.textures + forecast.writing + threads * kOfThread;
   forecast.peak = std::max<size_t>(peak_memory_bytes(), memory_bytes() + added);
   return forecast;

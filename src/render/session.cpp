@@ -77,6 +77,7 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
   const RenderSettings& settings = prepared.settings;
   FilmSettings film = film_settings(settings);
   film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
+  return_freed_memory();
   FinishedRender finished{Film(film), {}};
   const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
   const DriverSettings driver{
