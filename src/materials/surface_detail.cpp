@@ -3,13 +3,15 @@
 namespace etd {
 
 std::vector<ParamDecl> SurfaceDetail::params() {
-  return {{.name = "displacement",
-           .type = ParamType::kFloatTexture,
-           .default_value = 0.0,
-           .doc = "Height of bumps above the surface, in its units: tilts the shading normal, moves nothing."},
-          {.name = "normalmap",
-           .type = ParamType::kString,
-           .doc = "Image of normals in the frame of u, v and the shading normal, as (n + 1) / 2."}};
+  return {
+      {.name = "displacement",
+       .type = ParamType::kFloatTexture,
+       .default_value = 0.0,
+       .doc = "Height of bumps above the surface, in its units: tilts the shading normal, moves nothing."},
+      {.name = "normalmap",
+       .type = ParamType::kString,
+       .doc = "Image of normals as (n + 1) / 2: red tilts towards growing u, green towards growing v, also where uv "
+              "or the surface are mirrored."}};
 }
 
 SurfaceDetail SurfaceDetail::create(const ParamReader& p, TextureBuilder& b) {
@@ -51,6 +53,12 @@ Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord
   return is_finite(gradient) ? normalize(n - gradient) : n;
 }
 
+// 1 where u, v and the normal are right-handed, -1 where mirrored uv, a mirrored object or a reversed orientation make
+// them left-handed.
+float handedness(const SurfacePoint& point) {
+  return dot(point.ng, cross(point.dpdu, point.dpdv)) < 0.0f ? -1.0f : 1.0f;
+}
+
 }  // namespace
 
 Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const {
@@ -58,7 +66,8 @@ Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const 
   Vec3 n = point.ns;
   if (normal_map >= 0) {
     const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at);
-    const Vec3 local{2.0f * rgb[0] - 1.0f, 2.0f * rgb[1] - 1.0f, 2.0f * rgb[2] - 1.0f};
+    // Towards growing u and v. The frame below is right-handed all the same: closures do not tell y from -y.
+    const Vec3 local{2.0f * rgb[0] - 1.0f, (2.0f * rgb[1] - 1.0f) * handedness(point), 2.0f * rgb[2] - 1.0f};
     if (!(dot(local, local) > 1e-8f)) return plain;
     n = normalize(plain.to_world(local));
   } else if (displacement.texture >= 0) {

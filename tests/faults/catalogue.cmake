@@ -181,6 +181,9 @@ fault(light-choice-probability "the choice of a light is weighted as if it were 
 edit(light_sampling/light_sampler.cpp [[return Choice{light, table_.probability(light)};]]
      [[return Choice{light, FAULT ? 1.0f / 2 : table_.probability(light)};]])
 
+fault(lights-of-objects-in-place "lights of objects shine where they are described, not where instances put them" "Kinds/ObjectLight.*")
+edit(scene/place_lights.cpp [[places.push_back(to_world);]] [[places.push_back(FAULT ? TransformPath() : to_world);]])
+
 # ---- film
 
 fault(standard-error-by-n "the standard error divides by n^2 instead of n (n - 1)" "Film.*")
@@ -256,6 +259,9 @@ closed_forms(tests cap_light cylinder_light ring_light)
 fault(quadric-stretch "sampling a stretched quadric leaves out how its area stretches" "Quadric*:${tests}:${lights}")
 edit(shapes/quadric.h [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
      [[return 1.0f / (quadric.part.area() * (FAULT ? 1.0f : quadric_area_stretch(quadric, q)));]])
+
+fault(normal-maps-not-mirrored "the second axis of normal maps is n x u, wherever v grows" "Shapes/MirroredDetail.*")
+edit(materials/surface_detail.cpp [[* handedness(point)]] [[* (FAULT ? 1.0f : handedness(point))]])
 
 # ---- cameras
 
