@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "io/missing_file.h"
+#include "lights/light_data.h"
+
 namespace etd {
 
 namespace {
@@ -130,7 +133,8 @@ std::optional<Image> read_light_image(const ParamReader& params, const std::file
   const std::string& name = file->strings[0];
   ImageResult result = read_image(folder / name);
   if (!result.image) {
-    params.diagnostics().error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error));
+    params.diagnostics().error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
+                               missing_file_hint({folder}, name));
     return {};
   }
   const Image& image = *result.image;
@@ -146,15 +150,20 @@ std::optional<Image> read_light_image(const ParamReader& params, const std::file
   return std::move(result.image);
 }
 
-std::optional<EnvironmentMap> read_environment(const ParamReader& params, const std::filesystem::path& folder) {
-  const std::optional<Image> image = read_light_image(params, folder);
-  if (!image) return {};
-  if (EnvironmentMap::layout_of(image->width(), image->height())) return EnvironmentMap(*image);
-  params.diagnostics().error(params.given("filename")->value_loc,
-                             fmt::format("image \"{}\" of {} x {} texels is no map of directions",
-                                         params.given("filename")->strings[0], image->width(), image->height()),
+const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context) {
+  const Param* file = params.given("filename");
+  if (!file) return nullptr;
+  const auto [entry, is_new] = context.data.environment_of.try_emplace(context.folder / file->strings[0], nullptr);
+  if (entry->second || !is_new) return entry->second;
+  const std::optional<Image> image = read_light_image(params, context.folder);
+  if (!image) return nullptr;
+  if (EnvironmentMap::layout_of(image->width(), image->height()))
+    return entry->second = &context.data.environments.emplace_back(*image);
+  params.diagnostics().error(file->value_loc,
+                             fmt::format("image \"{}\" of {} x {} texels is no map of directions", file->strings[0],
+                                         image->width(), image->height()),
                              "valid: square (equal-area octahedral), or twice as wide as high (latitude-longitude)");
-  return {};
+  return nullptr;
 }
 
 }  // namespace etd

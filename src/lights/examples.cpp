@@ -86,7 +86,8 @@ LightExample goniometric(std::string name) {
 
 LightExample projection() {
   auto data = std::make_shared<LightData>();
-  ProjectionIntensity intensity = ProjectionIntensity::of(uneven_image(6, 3), turned(), 1.6f, 0.8f, *data);
+  LightData::Slide slide{&data->images.emplace_back(uneven_image(6, 3)), nullptr};
+  ProjectionIntensity intensity = ProjectionIntensity::of(slide, turned(), 1.6f, 0.8f, *data);
   intensity.scale = 2.0f;
   return {"projection", Light(PointLight<ProjectionIntensity>{{0.5f, 0.2f, -0.3f}, intensity}), nullptr, nullptr, data};
 }

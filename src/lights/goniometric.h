@@ -26,10 +26,10 @@ struct GoniometricIntensity {
   }
   static std::optional<PointLight<GoniometricIntensity>> create(const ParamReader& p, const LightContext& context) {
     const std::optional<Frame> light = light_axes(context.to_world, p);
-    std::optional<EnvironmentMap> map = read_environment(p, context.folder);
+    const EnvironmentMap* map = read_environment(p, context);
     if (!light || !map) return {};
     GoniometricIntensity g;
-    g.map = &context.data.environments.emplace_back(std::move(*map));
+    g.map = map;
     g.axes = {light->x, light->z, light->y};
     g.value = emission_value(p, "I");
     g.value *= emission_scale(p, "power", g.power());

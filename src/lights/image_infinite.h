@@ -14,11 +14,11 @@ struct ImageInfiniteLight {
   static std::optional<ImageInfiniteLight> create(const ParamReader& p, const LightContext& context) {
     reject_radiance_beside_file(p);
     const std::optional<Frame> axes = light_axes(context.to_world, p);
-    std::optional<EnvironmentMap> map = read_environment(p, context.folder);
+    const EnvironmentMap* map = read_environment(p, context);
     if (!map || !axes) return {};
     const float scale =
         emission_scale(p, "illuminance", p.number("illuminance") > 0 ? map->irradiance_up() : Spectrum());
-    return ImageInfiniteLight{&context.data.environments.emplace_back(std::move(*map)), *axes, scale};
+    return ImageInfiniteLight{map, *axes, scale};
   }
 
   bool is_infinite() const { return true; }

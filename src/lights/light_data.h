@@ -2,6 +2,8 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
+#include <map>
 
 #include "core/animated_transform.h"
 #include "lights/environment_map.h"
@@ -15,6 +17,14 @@ struct LightData {
   std::deque<Image> images;
   std::deque<GridDistribution> grids;
   std::deque<AnimatedTransform> motions;
+  // Of the files that were read, null where that failed: a light of an object is read once for all of its instances.
+  std::map<std::filesystem::path, const EnvironmentMap*> environment_of;
+  // Of a projection light's file and field of view.
+  struct Slide {
+    const Image* image = nullptr;
+    const GridDistribution* texels = nullptr;
+  };
+  std::map<std::pair<std::filesystem::path, double>, Slide> slide_of;
 
   size_t bytes() const {
     size_t sum = 0;

@@ -38,17 +38,17 @@ std::optional<PortalInfiniteLight> PortalInfiniteLight::create(const ParamReader
   reject_radiance_beside_file(p);
   const std::optional<Portal> portal = read_portal(p, context);
   const std::optional<Frame> axes = light_axes(context.to_world, p);
-  std::optional<EnvironmentMap> map;
+  const EnvironmentMap* map = nullptr;
   if (p.given("filename")) {
-    map = read_environment(p, context.folder);
+    map = read_environment(p, context);
   } else {
     const Spectrum radiance = emission_value(p, "L");
-    map.emplace(Image(1, 1, 3, std::vector<float>{radiance[0], radiance[1], radiance[2]}));
+    map = &context.data.environments.emplace_back(
+        Image(1, 1, 3, std::vector<float>{radiance[0], radiance[1], radiance[2]}));
   }
   if (!portal || !axes || !map) return {};
   const float scale = emission_scale(p, "illuminance", p.number("illuminance") > 0 ? map->irradiance_up() : Spectrum());
-  const EnvironmentMap& kept = context.data.environments.emplace_back(std::move(*map));
-  return PortalInfiniteLight{&context.data.portals.emplace_back(kept, *axes, *portal), scale};
+  return PortalInfiniteLight{&context.data.portals.emplace_back(*map, *axes, *portal), scale};
 }
 
 }  // namespace etd

@@ -12,32 +12,42 @@ double solid_angle_to(double x, double y) { return std::atan(x * y / std::sqrt(1
 std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const ParamReader& p,
                                                                            const LightContext& context) {
   const std::optional<Frame> axes = light_axes(context.to_world, p);
-  std::optional<Image> image = read_light_image(p, context.folder);
-  const double half = std::tan(0.5 * radians(p.number("fov")));
-  const bool flat = !(p.number("fov") < 180.0);
+  const double fov = p.number("fov");
+  const bool flat = !(fov < 180.0);
   if (flat) p.diagnostics().error(p.given("fov")->value_loc, "the field of view must be below 180 degrees");
-  if (!axes || !image || flat) return {};
-  const double aspect = static_cast<double>(image->width()) / image->height();
+  const Param* file = p.given("filename");
+  if (!file) return {};
+  const auto [entry, is_new] = context.data.slide_of.try_emplace({context.folder / file->strings[0], fov});
+  LightData::Slide& slide = entry->second;
+  if (is_new)
+    if (std::optional<Image> image = read_light_image(p, context.folder))
+      slide.image = &context.data.images.emplace_back(std::move(*image));
+  if (!slide.image || !axes || flat) return {};
+  const double half = std::tan(0.5 * radians(fov));
+  const double aspect = static_cast<double>(slide.image->width()) / slide.image->height();
   const auto half_x = static_cast<float>(half * std::max(1.0, aspect));
   const auto half_y = static_cast<float>(half * std::max(1.0, 1.0 / aspect));
-  ProjectionIntensity light = of(std::move(*image), *axes, half_x, half_y, context.data);
+  ProjectionIntensity light = of(slide, *axes, half_x, half_y, context.data);
   light.scale = emission_scale(p, "power", light.power());
   return PointLight<ProjectionIntensity>{light_position(p, context), light};
 }
 
-ProjectionIntensity ProjectionIntensity::of(Image image, const Frame& axes, float half_x, float half_y,
+ProjectionIntensity ProjectionIntensity::of(LightData::Slide& slide, const Frame& axes, float half_x, float half_y,
                                             LightData& data) {
   ProjectionIntensity light;
-  light.image = &data.images.emplace_back(std::move(image));
+  light.image = slide.image;
   light.axes = axes;
   light.half_x = half_x;
   light.half_y = half_y;
-  const int width = light.image->width(), height = light.image->height();
-  std::vector<double> weights;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      weights.push_back(static_cast<double>(mean_value(light.texel(x, y))) * light.solid_angle(x, y));
-  light.texels = &data.grids.emplace_back(width, height, weights);
+  if (!slide.texels) {
+    const int width = light.image->width(), height = light.image->height();
+    std::vector<double> weights;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        weights.push_back(static_cast<double>(mean_value(light.texel(x, y))) * light.solid_angle(x, y));
+    slide.texels = &data.grids.emplace_back(width, height, weights);
+  }
+  light.texels = slide.texels;
   return light;
 }
 

@@ -29,8 +29,9 @@ struct ProjectionIntensity {
                               power_param()}};
     return d;
   }
-  // Of an image that reaches so far from the axis at z = 1; `data` keeps it.
-  static ProjectionIntensity of(Image image, const Frame& axes, float half_x, float half_y, LightData& data);
+  // Of an image that reaches so far from the axis at z = 1; a slide without its distribution gets one, kept by `data`.
+  static ProjectionIntensity of(LightData::Slide& slide, const Frame& axes, float half_x, float half_y,
+                                LightData& data);
   static std::optional<PointLight<ProjectionIntensity>> create(const ParamReader& p, const LightContext& context);
 
   Spectrum intensity(Vec3 w) const;

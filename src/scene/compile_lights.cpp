@@ -6,6 +6,7 @@
 
 #include "lights/diffuse_area.h"
 #include "scene/check_transform.h"
+#include "scene/place_lights.h"
 #include "scene/registry.h"
 
 namespace etd {
@@ -143,44 +144,66 @@ void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool in
 namespace {
 
 // A light that moves is made in a space of its own, which turns and translates.
-std::optional<Light> make_moving_light(const LightDesc& desc, const std::filesystem::path& folder, Scene& scene,
-                                       Diagnostics& diagnostics) {
-  const Transform size = TransformParts::of(desc.to_world.start.matrix()).rest();
-  const TransformPath path = TransformPath().then(Transform::translate(-scene.origin)).then(desc.to_world);
+std::optional<Light> make_moving_light(const ModelUse& use, const TransformPath& to_world,
+                                       const std::filesystem::path& folder, Scene& scene, Diagnostics& diagnostics) {
+  const Transform size = TransformParts::of(to_world.at(0).matrix()).rest();
+  const TransformPath path = TransformPath().then(Transform::translate(-scene.origin)).then(to_world);
   const AnimatedTransform& motion = scene.light_data.motions.emplace_back(path.then(size.inverse()), Vec3d{}, 1.0);
   if (!motion.is_rigid())
-    diagnostics.error(desc.use.loc, fmt::format("this {} light changes its size while it moves", desc.use.model),
+    diagnostics.error(use.loc, fmt::format("this {} light changes its size while it moves", use.model),
                       "lights that are no shapes can only be translated and turned");
-  if (const Param* portal = desc.use.find("portal")) {
+  if (const Param* portal = use.find("portal")) {
     diagnostics.error(portal->loc, "a light behind a portal can't move",
                       "the portal is in the world, not on the light");
     return {};
   }
-  const auto light = make_light(desc.use, {size, folder, scene.light_data, {}}, diagnostics);
+  const auto light = make_light(use, {size, folder, scene.light_data, {}}, diagnostics);
   scene.moves = true;
   return light ? std::optional(light->moving(motion)) : std::nullopt;
+}
+
+// The light in one of its places.
+void add_light(const LightDesc& desc, const TransformPath& place, const std::filesystem::path& folder, Scene& scene,
+               Diagnostics& diagnostics) {
+  const TransformPath to_world = place.then(desc.to_world);
+  const Transform from_world = Transform::translate(-scene.origin) * place.at(0);
+  const auto light =
+      to_world.moves()
+          ? make_moving_light(desc.use, to_world, folder, scene, diagnostics)
+          : make_light(desc.use, {from_world * desc.to_world.start, folder, scene.light_data, from_world}, diagnostics);
+  if (!light) return;
+  check_power(light->power(), desc.use, diagnostics);
+  if (light->is_infinite() && !light->is_delta())
+    scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
+  scene.lights.push_back(*light);
+  scene.names.lights.push_back(name_item(Family::kLight, desc.use));
+  ++scene.summary.lights[desc.use.model];
+}
+
+// What users of pbrt-v4 may not expect of lights in objects.
+void explain_places(const PlacedLight& placed, const Light* light, Diagnostics& diagnostics) {
+  const ModelUse& use = placed.light->use;
+  if (placed.places.empty())
+    diagnostics.note(use.loc, fmt::format("a {} light shines nowhere, because its object has no instance", use.model));
+  else if (light && light->is_infinite() && placed.places.size() > 1)
+    diagnostics.note(use.loc, fmt::format("a light from infinitely far away shines {} times, once for each instance of "
+                                          "its object",
+                                          placed.places.size()));
 }
 
 }  // namespace
 
 void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
-  const Transform to_recentred = Transform::translate(-scene.origin);
-  for (const LightDesc& desc : description.lights) {
+  for (const PlacedLight& placed : place_lights(description, diagnostics)) {
+    const LightDesc& desc = *placed.light;
     if (const ModelDecl* decl = find_model(Family::kLight, desc.use.model)) check_params(*decl, desc.use, diagnostics);
     if (!check_transform(desc.to_world, desc.use.loc, "light", diagnostics)) continue;
-    const auto light =
-        desc.to_world.is_moving()
-            ? make_moving_light(desc, description.folder, scene, diagnostics)
-            : make_light(desc.use,
-                         {to_recentred * desc.to_world.start, description.folder, scene.light_data, to_recentred},
-                         diagnostics);
-    if (!light) continue;
-    check_power(light->power(), desc.use, diagnostics);
-    if (light->is_infinite() && !light->is_delta())
-      scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
-    scene.lights.push_back(*light);
-    scene.names.lights.push_back(name_item(Family::kLight, desc.use));
-    ++scene.summary.lights[desc.use.model];
+    const size_t first = scene.lights.size();
+    for (const TransformPath& place : placed.places) add_light(desc, place, description.folder, scene, diagnostics);
+    explain_places(placed, first < scene.lights.size() ? &scene.lights[first] : nullptr, diagnostics);
+    if (!placed.places.empty()) continue;
+    LightData unused;  // a mistake in an object without an instance is a mistake too
+    make_light(desc.use, {desc.to_world.start, description.folder, unused, {}}, diagnostics);
   }
 }
 

@@ -37,17 +37,18 @@ struct InstanceDesc {
   SourceLoc loc;
 };
 
-// A group of shapes that instances place in the world; may contain instances of earlier objects.
+struct LightDesc {
+  ModelUse use;
+  TransformPair to_world;  // of an object's light: to the object's space
+};
+
+// A group of shapes and lights that instances place in the world; may contain instances of earlier objects.
 struct ObjectDesc {
   std::string name;
   std::vector<ShapeDesc> shapes;
+  std::vector<LightDesc> lights;
   std::vector<InstanceDesc> instances;
   SourceLoc loc;
-};
-
-struct LightDesc {
-  ModelUse use;
-  TransformPair to_world;
 };
 
 struct SceneDescription {

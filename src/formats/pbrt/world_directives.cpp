@@ -86,7 +86,9 @@ void light_source(Parser& p, const Token& d) {
   p.add_defaults(AttributeTarget::kLight, Family::kLight, *use);
   std::optional<ModelUse> supported = make_supported(Family::kLight, std::move(*use), p.diagnostics);
   const std::optional<TransformPair> to_world = p.placement(d.loc, "light");
-  if (supported && to_world) p.scene.lights.push_back({std::move(*supported), *to_world});
+  std::vector<LightDesc>& lights =
+      p.object >= 0 ? p.scene.objects[static_cast<size_t>(p.object)].lights : p.scene.lights;
+  if (supported && to_world) lights.push_back({std::move(*supported), *to_world});
 }
 
 void area_light_source(Parser& p, const Token& d) {
@@ -181,7 +183,7 @@ void object_begin(Parser& p, const Token& d) {
   p.open_block(Block::Kind::kObject, d.loc);
   const int index = static_cast<int>(p.scene.objects.size());
   p.names.define_object(name->value(), index, name->loc, p.diagnostics);
-  p.scene.objects.push_back({name->value(), {}, {}, name->loc});
+  p.scene.objects.push_back({name->value(), {}, {}, {}, name->loc});
   p.object = index;
 }
 
