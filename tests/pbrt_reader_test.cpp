@@ -211,6 +211,10 @@ WorldBegin)");
   EXPECT_NE(r.messages().find("note: integrator \"bdpt\" is rendered with \"path\", without its visualizestrategies"),
             std::string::npos)
       << r.messages();
+  EXPECT_EQ(Reading("Sampler \"stratified\" \"integer pixelsamples\" 9\nWorldBegin")
+                .scene.sampler.find("pixelsamples")
+                ->integers[0],
+            9);
   EXPECT_EQ(Reading("Sampler \"paddedsobol\" \"integer pixelsamples\" 4\nWorldBegin").messages(), "");
   EXPECT_EQ(Reading("Sampler \"independent\" \"integer pixelsamples\" 4\nWorldBegin").scene.sampler.model,
             "independent");

@@ -130,6 +130,7 @@ void Diagnostics::note(SourceLoc loc, std::string message) { add({Severity::kNot
 
 void Diagnostics::unsupported(SourceLoc loc, std::string what, std::string substitute) {
   const std::string_view prefix = allow_unsupported_ ? "rendered with: " : "--allow-unsupported renders with: ";
+  if (allow_unsupported_) substitutes_.insert(fmt::format("{}: {}", what, substitute));
   add({allow_unsupported_ ? Severity::kWarning : Severity::kUnsupported, loc, std::move(what) + " is not supported yet",
        std::string(prefix) + substitute});
 }

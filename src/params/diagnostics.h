@@ -40,6 +40,8 @@ class Diagnostics {
   bool has_errors() const { return errors_ > 0; }
   int error_count() const { return errors_; }
   bool allow_unsupported() const { return allow_unsupported_; }
+  // What stands in for unsupported uses, "medium \"fog\": empty space", each pair once.
+  const std::set<std::string>& substitutes() const { return substitutes_; }
   std::span<const Diagnostic> all() const { return list_; }
 
   // "file:line:column: error: message", the source line with a caret, and the hint. Long lines are cut around the
@@ -58,6 +60,7 @@ class Diagnostics {
   std::set<std::string> said_;
   int errors_ = 0;
   bool allow_unsupported_ = false;
+  std::set<std::string> substitutes_;
 };
 
 // The candidate nearest to `word` by edit distance (optimal string alignment, case-insensitive), or empty when none is

@@ -20,8 +20,9 @@ std::string hash_scene(const SceneDescription& description, const Sources& sourc
 std::string replay_command(const PreparedRender& prepared, const RenderResult& result, const SampleId& id);
 
 // Adds to the metadata of an image "etendue:scene_path" (absolute), ":scene_hash", ":options" (a JSON list),
-// ":strongest" (the kStrongestKept strongest samples, a JSON list of [x, y, sample, luminance, share of the pixel's
-// mean]), and, where samples were invalid, ":invalid_replay", the command that shows the first of them.
+// ":substitutes" (what stands in for unsupported uses, or "none"), ":strongest" (the kStrongestKept strongest samples,
+// a JSON list of [x, y, sample, luminance, share of the pixel's mean]), and, where samples were invalid,
+// ":invalid_replay", the command that shows the first of them.
 inline constexpr size_t kStrongestKept = 64;
 void add_provenance(const PreparedRender& prepared, const FinishedRender& finished, Metadata& metadata);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/make_integrator.h"
+#include "render/other_names.h"
 #include "scene/registry.h"
 
 namespace etd {
@@ -23,6 +24,7 @@ const ModelDecl* require_model(Family family, const ModelUse& use, Diagnostics& 
   if (const ModelDecl* model = find_any_model(family, use.model)) return model;
   std::vector<std::string_view> names;
   for (const ModelDecl* model : all_models(family)) names.push_back(model->name);
+  names.insert(names.end(), other_names(family).begin(), other_names(family).end());
   const std::string_view near = nearest_name(use.model, names);
   diagnostics.error(use.loc, fmt::format("there is no {} \"{}\"", family_name(family), use.model),
                     (near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near)) +

@@ -26,6 +26,12 @@ void check_film_memory(const RenderSettings& settings, Diagnostics& diagnostics)
       "a smaller size or crop, fewer replicates or no features make it smaller");
 }
 
+std::string bias_of(const PreparedRender& prepared) {
+  const std::string own = prepared.integrator->bias();
+  if (prepared.substitutes.empty()) return own;
+  return fmt::format("{}{}with substitutes ({})", own, own.empty() ? "" : "; ", prepared.substitutes);
+}
+
 }  // namespace
 
 FilmSettings film_settings(const RenderSettings& s) {
@@ -69,6 +75,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
                                   .replicates = settings.replicates};
   prepared.integrator = make_integrator(settings.integrator, *prepared.scene, context, diagnostics);
   if (diagnostics.has_errors()) return {};
+  prepared.substitutes = fmt::format("{}", fmt::join(diagnostics.substitutes(), "; "));
   prepared.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
 }
@@ -89,7 +96,7 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
 RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& finished, bool replicate_layers) {
   RowImage image = layer_rows(finished.film, replicate_layers);
   image.half = prepared.settings.half;
-  image.metadata = make_metadata(prepared.scene_file, prepared.settings, prepared.integrator->bias(), finished.result);
+  image.metadata = make_metadata(prepared.scene_file, prepared.settings, bias_of(prepared), finished.result);
   const IntegratorTraits traits = prepared.integrator->traits();
   const bool independent = traits.memoryless && !traits.splats;
   image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));

@@ -25,6 +25,7 @@ struct PreparedRender {
   std::string scene_hash;  // hash_scene()
   RenderOverrides overrides;
   bool allow_unsupported = false;
+  std::string substitutes;  // all that stand in for what is not supported, separated by "; "
   RenderSettings settings;
   std::shared_ptr<const Scene> scene;  // outlives the integrator, which refers to it
   std::unique_ptr<Integrator> integrator;

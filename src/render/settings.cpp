@@ -6,6 +6,7 @@
 
 #include "film/film_model.h"
 #include "render/driver.h"
+#include "render/other_names.h"
 #include "render/overrides.h"
 #include "render/registry.h"
 
@@ -114,6 +115,7 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
     sampler.model = *overrides.sampler;
     const auto length = static_cast<int32_t>(sampler.model.size());
     sampler.loc = {diagnostics.sources().add("command line", sampler.model), 1, 1, std::max(1, length)};
+    take_other_name(Family::kSampler, sampler, diagnostics);
   }
   apply_overrides(overrides.set, {film, sampler, settings.integrator}, diagnostics);
 

@@ -6,6 +6,7 @@
 
 #include "formats/pbrt/old_names.h"
 #include "formats/pbrt/tokenizer.h"
+#include "render/other_names.h"
 #include "render/registry.h"
 
 namespace etd::pbrt {
@@ -27,6 +28,7 @@ const UnsupportedParam* find_unsupported(Family family, std::string_view model, 
 std::vector<std::string_view> known_names(Family family) {
   std::vector<std::string_view> names;
   for (const ModelDecl* m : all_models(family)) names.push_back(m->name);
+  names.insert(names.end(), other_names(family).begin(), other_names(family).end());
   for (const UnsupportedModel& m : unsupported_models())
     if (m.family == family && !find_any_model(family, m.name)) names.push_back(m.name);
   return names;
@@ -45,6 +47,10 @@ std::string_view neutral_model(Family family) {
       return "gaussian";
     case Family::kFilm:
       return "rgb";
+    case Family::kSampler:
+      return "sobol";
+    case Family::kIntegrator:
+      return "path";
     default:
       return {};
   }

@@ -44,9 +44,6 @@ struct OptionRule {
 };
 
 std::span<const OptionRule> known_options();
-// Samplers and integrators of the language that are rendered with "sobol" and "path".
-std::span<const std::string_view> mapped_samplers();
-std::span<const std::string_view> mapped_integrators();
 std::span<const UnsupportedModel> unsupported_models();
 std::span<const UnsupportedParam> unsupported_params();
 

@@ -37,6 +37,10 @@ std::span<const UnsupportedModel> unsupported_models() {
         {"imagingratio", "imagingratio"},
         {"whitebalance", "whitebalance"},
         {"maxcomponentvalue", "maxcomponentvalue"}}},
+
+      // These compute another quantity, not the same one in another way (render/other_names.h).
+      {Family::kIntegrator, "ambientocclusion", "path", "the light of the scene by \"path\", not its occlusion"},
+      {Family::kIntegrator, "function", "path", "the light of the scene by \"path\", not the function"},
   };
   return table;
 }
@@ -75,18 +79,6 @@ std::span<const OptionRule> known_options() {
        {"pixelstats", Effect::kNote, "no statistics of single pixels are written"},
        {"msereferenceimage", Effect::kNote, "no comparison with a reference is made while rendering"},
        {"msereferenceout", Effect::kNote, "no comparison with a reference is made while rendering"}}};
-  return table;
-}
-
-std::span<const std::string_view> mapped_samplers() {
-  static constexpr std::array<std::string_view, 5> table = {"paddedsobol", "zsobol", "halton", "pmj02bn", "stratified"};
-  return table;
-}
-
-std::span<const std::string_view> mapped_integrators() {
-  static constexpr std::array<std::string_view, 10> table = {
-      "volpath",   "simplepath", "simplevolpath",    "bdpt",    "mlt", "sppm",
-      "lightpath", "randomwalk", "ambientocclusion", "function"};
   return table;
 }
 

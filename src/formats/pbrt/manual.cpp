@@ -7,6 +7,7 @@
 #include "formats/pbrt/coverage.h"
 #include "formats/pbrt/parser.h"
 #include "params/describe.h"
+#include "render/other_names.h"
 #include "render/registry.h"
 
 namespace etd {
@@ -113,7 +114,10 @@ std::string pbrt_coverage_markdown() {
       "used before they are defined, and an object may contain instances of objects that end before it begins. "
       "Relative\n"
       "file names start in the folder of the main file; those of `Include` and `Import` also in that of the file that\n"
-      "names them.\n\n";
+      "names them.\n\n"
+      "Lights between `ObjectBegin` and `ObjectEnd` belong to the object, as its shapes do: none shines without an "
+      "instance,\n"
+      "and one for each instance, wherever that puts it. A `portal` is in the space of the object then.\n\n";
   out += directives_chapter() + "\n## Models\n";
   for (const Family family : kAllFamilies)
     for (const ModelDecl* model : all_models(family)) out += model_section(*model);
@@ -124,7 +128,7 @@ std::string pbrt_coverage_markdown() {
       "Rendered with the integrator `path`, keeping `maxdepth` and `lightsampler`, with one printed line: {}.\n\n"
       "`randomization` of a sampler and `Accelerator` are not used and print one line; so do the light samplers `bvh` "
       "and\n`exhaustive`, for which `power` is taken.\n",
-      list_of_names(pbrt::mapped_samplers()), list_of_names(pbrt::mapped_integrators()));
+      list_of_names(other_names(Family::kSampler)), list_of_names(other_names(Family::kIntegrator)));
   out += "\n## Options\n" + options_table();
   out +=
       "\n## Not supported yet\n\nEach use is an error with its place. With `--allow-unsupported` it becomes a warning, "

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "formats/pbrt/coverage.h"
-#include "formats/pbrt/old_names.h"
 #include "formats/pbrt/parser.h"
+#include "render/other_names.h"
 #include "render/registry.h"
 
 namespace etd::pbrt {
@@ -38,54 +38,9 @@ void camera(Parser& p, const Token& d) {
 void film(Parser& p, const Token& d) { read_model(p, d, Family::kFilm, p.scene.film); }
 void pixel_filter(Parser& p, const Token& d) { read_model(p, d, Family::kFilter, p.scene.filter); }
 
-bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// Takes the parameters that are not named out of the list and returns their names, for a note.
-std::string drop_all_but(std::initializer_list<std::string_view> kept, std::vector<Param>& params) {
-  std::string dropped;
-  const auto drop = [&](const Param& param) {
-    if (is_one_of(param.name, kept)) return false;
-    dropped += (dropped.empty() ? "" : ", ") + param.name;
-    return true;
-  };
-  params.erase(std::remove_if(params.begin(), params.end(), drop), params.end());
-  return dropped;
-}
-
-// Turns a use of another sampler or integrator into one of `ours` that keeps the named parameters, with a note unless
-// it is only another name.
-void map_to_ours(Parser& p, ModelUse& use, std::string_view ours, std::initializer_list<std::string_view> kept,
-                 bool same, std::string_view what) {
-  const std::string dropped = drop_all_but(kept, use.params);
-  if (!same || !dropped.empty())
-    p.diagnostics.note(use.loc, fmt::format("{} \"{}\" is rendered with \"{}\"{}{}", what, use.model, ours,
-                                            dropped.empty() ? "" : ", without its ", dropped));
-  use.model = ours;
-}
-
-// Reports a name that neither Etendue nor the language has, and puts ours in its place.
-void replace_unknown(Parser& p, ModelUse& use, Family family, std::string_view ours,
-                     std::span<const std::string_view> mapped) {
-  std::vector<std::string_view> names;
-  for (const ModelDecl* model : all_models(family)) names.push_back(model->name);
-  names.insert(names.end(), mapped.begin(), mapped.end());
-  std::string hint = old_model_hint(family, use, p.diagnostics);
-  if (const std::string_view near = nearest_name(use.model, names); hint.empty() && !near.empty())
-    hint = fmt::format("did you mean \"{}\"? ", near);
-  p.diagnostics.error(use.loc, fmt::format("unknown {} \"{}\"", family_name(family), use.model),
-                      hint + fmt::format("valid: {}", fmt::join(names, ", ")));
-  use.model = ours;
-  use.params.clear();
-}
-
-bool contains(std::span<const std::string_view> names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // A stratified sampler says how many samples it takes as a product.
 void multiply_strata(ModelUse& use) {
+  if (use.find("pixelsamples") && !use.find("xsamples") && !use.find("ysamples")) return;
   int64_t count = 1;
   Param samples;
   samples.name = "pixelsamples";
@@ -98,29 +53,25 @@ void multiply_strata(ModelUse& use) {
   }
   constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
   samples.integers = {static_cast<int32_t>(std::clamp(count, -kMost, kMost))};
-  drop_all_but({"xsamples", "ysamples", "jitter", "seed"}, use.params);
   use.params.push_back(std::move(samples));
 }
 
 void sampler(Parser& p, const Token& d) {
   std::optional<ModelUse> use = p.model_arguments(d, "the name of a sampler");
   if (!use) return;
-  if (!find_any_model(Family::kSampler, use->model)) {
-    if (!contains(mapped_samplers(), use->model)) {
-      replace_unknown(p, *use, Family::kSampler, "sobol", mapped_samplers());
-    } else {
-      if (use->model == "stratified") multiply_strata(*use);
-      map_to_ours(p, *use, "sobol", {"pixelsamples", "seed", "randomization"}, use->model == "paddedsobol", "sampler");
-    }
-  }
+  if (use->model == "stratified") multiply_strata(*use);
   const auto foreign = [&](const Param& param) {
-    const ModelDecl* decl = find_any_model(Family::kSampler, use->model);
-    if (param.name != "randomization" || (decl && decl->find(param.name))) return false;
+    if (param.name != "randomization") return false;
     p.diagnostics.note(param.loc, "samples are scrambled by Owen's method, whatever \"randomization\" says");
     return true;
   };
-  use->params.erase(std::remove_if(use->params.begin(), use->params.end(), foreign), use->params.end());
-  replace(p, p.scene.sampler, std::move(*use), d);
+  std::erase_if(use->params, foreign);
+  take_other_name(Family::kSampler, *use, p.diagnostics);
+  replace(p, p.scene.sampler, *make_supported(Family::kSampler, std::move(*use), p.diagnostics), d);
+}
+
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Those of pbrt that are not ours.
@@ -147,13 +98,9 @@ void read_path_params(Parser& p, ModelUse& use) {
 void integrator(Parser& p, const Token& d) {
   std::optional<ModelUse> use = p.model_arguments(d, "the name of an integrator");
   if (!use) return;
-  const bool own = find_any_model(Family::kIntegrator, use->model) != nullptr;
-  const bool mapped = contains(mapped_integrators(), use->model);
-  if (!own && !mapped) replace_unknown(p, *use, Family::kIntegrator, "path", mapped_integrators());
-  if (own ? use->model == "path" : mapped) read_path_params(p, *use);
-  if (!own && mapped) map_to_ours(p, *use, "path", {"maxdepth", "lightsampler"}, false, "integrator");
-  drop_old_params(Family::kIntegrator, *use, p.diagnostics);
-  replace(p, p.scene.integrator, std::move(*use), d);
+  if (use->model == "path" || contains(other_names(Family::kIntegrator), use->model)) read_path_params(p, *use);
+  take_other_name(Family::kIntegrator, *use, p.diagnostics);
+  replace(p, p.scene.integrator, *make_supported(Family::kIntegrator, std::move(*use), p.diagnostics), d);
 }
 
 void accelerator(Parser& p, const Token& d) {

@@ -1,0 +1,18 @@
+// Samplers and integrators that users know by name from elsewhere, whose pictures are those of one of ours.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "params/declaration.h"
+
+namespace etd {
+
+// Of samplers rendered with "sobol", of integrators rendered with "path"; of other families none.
+std::span<const std::string_view> other_names(Family family);
+
+// Makes a use of such a name one of ours that keeps what ours takes, with a note that says what is used and what is
+// left out. Other uses stay as they are.
+void take_other_name(Family family, ModelUse& use, Diagnostics& diagnostics);
+
+}  // namespace etd
