@@ -34,11 +34,14 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-// File names in messages are those of this checkout; the expected files name them from the folder of the scenes.
+// File names in messages are those of this checkout; the expected files name them from the folder of the scenes, which
+// they call FOLDER where it stands alone.
 std::string with_relative_paths(std::string text) {
-  const std::string prefix = kFolder.string() + "/";
+  const std::string folder = kFolder.string(), prefix = folder + "/";
   for (size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at))
     text.erase(at, prefix.size());
+  for (size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
+    text.replace(at, folder.size(), "FOLDER");
   return text;
 }
 

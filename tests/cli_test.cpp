@@ -95,6 +95,123 @@ TEST_F(Cli, WithoutAnOutputTheFilmNamesItInThisFolder) {
   EXPECT_EQ(folder_.entries(), 2);
 }
 
+TEST_F(Cli, TheFolderOfTheFilmIsUsedIfItIsThere) {
+  folder_.write("s.pbrt", kScene);
+  std::filesystem::create_directory(folder_.path() / "somewhere");
+  const Finished done = run("render s.pbrt --quiet");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(has(done.out, "somewhere/picture.exr\n")) << done.out;
+  EXPECT_TRUE(exists("somewhere/picture.exr"));
+  EXPECT_FALSE(exists("picture.exr"));
+}
+
+TEST_F(Cli, OptionsOfOtherRenderersAreAnsweredWithOurs) {
+  folder_.write("s.pbrt", kScene);
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"render s.pbrt --outfile a.exr",
+            "`etendue render` has no option \"--outfile\"\n  did you mean \"--output FILE\"?"},
+           {"render --outfile a.exr s.pbrt", "did you mean \"--output FILE\"?"},
+           {"render s.pbrt -outfile a.exr", "did you mean \"--output FILE\"?"},
+           {"render s.pbrt --samples 64", "did you mean \"--spp N\"?"},
+           {"render --samples=64 s.pbrt", "has no option \"--samples\""},
+           {"render s.pbrt --width 640 --height 360",
+            "has no option \"--height\"\n  did you mean \"--size WIDTHxHEIGHT\"?"},
+           {"render s.pbrt +W640 +H480", "\"+W640\"\n  did you mean \"--size WIDTHxHEIGHT\"?"},
+           {"render s.pbrt --nthreads 4", "did you mean \"--threads N\"?"},
+           {"render s.pbrt -j4", "did you mean \"--threads N\"?"},
+           {"render s.pbrt --cropwindow 0,1,0,1", "did you mean \"--crop x0,x1,y0,y1\"?"},
+           {"render s.pbrt --max-bounces 3", "did you mean \"--max-depth N\"?"},
+           {"render s.pbrt --gpu", "rendering runs on the processor"},
+           {"render s.pbrt -size 640x360", "did you mean \"--size\"?"},
+           {"render s.pbrt --fireflies 3", "it is an option of `etendue replay`"},
+           {"render s.pbrt --sede 3", "did you mean \"--seed\"?"},
+           {"info s.pbrt --nthreads 3", "did you mean \"--threads N\" of `etendue "},
+           {"verify scene s.pbrt --outfile a",
+            "`etendue verify scene` has no option \"--outfile\"\n  did you mean \"--output"},
+           {"render s.pbrt a.exr", "did you mean \"-o a.exr\"?"},
+           {"--outfile a.exr s.pbrt", "a command comes first, as in `etendue render SCENE`"},
+           {"s.pbrt", "did you mean \"etendue render s.pbrt\"?"}}) {
+    const Finished done = run(arguments);
+    EXPECT_EQ(done.exit_code, 2) << arguments;
+    EXPECT_TRUE(has(done.err, message)) << arguments << "\n" << done.err;
+  }
+  EXPECT_EQ(folder_.entries(), 1);
+}
+
+TEST_F(Cli, OptionsThatContradictEachOtherAreAnError) {
+  folder_.write("s.pbrt", kScene);
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"--mode naive --set integrator.mode=mis",
+            "--mode naive and --set integrator.mode=mis contradict each other"},
+           {"--set integrator.mode=mis --mode naive", "--mode naive and --set integrator.mode=mis"},
+           {"--max-depth 3 --set integrator.maxdepth=4", "--max-depth 3 and --set integrator.maxdepth=4"},
+           {"--components direct --set integrator.components=all", "--components direct and"},
+           {"--spp 4 --set sampler.pixelsamples=8", "--spp 4 and --set sampler.pixelsamples=8"},
+           {"--seed 1 --set sampler.seed=2", "--seed 1 and --set sampler.seed=2"},
+           {"--size 8x6 --set film.xresolution=9", "--size 8x6 and --set film.xresolution=9"},
+           {"--crop 0,1,0,1 --set film.pixelbounds=0,2,0,2", "--crop 0,1,0,1 and --set film.pixelbounds=0,2,0,2"},
+           {"--set integrator.mode=mis --set integrator.mode=naive", "--set integrator.mode=mis and --set"},
+           {"--spp 4 --spp 8", "--spp"},
+           {"--mode naive --mode mis", "--mode"}}) {
+    const Finished done = run("render s.pbrt -o a.exr " + arguments);
+    EXPECT_EQ(done.exit_code, 2) << arguments;
+    EXPECT_TRUE(has(done.err, message)) << arguments << "\n" << done.err;
+  }
+  EXPECT_EQ(folder_.entries(), 1);
+  const Finished same =
+      run("render s.pbrt -o a.exr --mode naive --set integrator.mode=naive --spp 4 --set sampler.pixelsamples=4");
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+}
+
+TEST_F(Cli, SamplersHaveTheNamesThatScenesKnow) {
+  folder_.write("s.pbrt", kScene);
+  const Finished halton = run("render s.pbrt -o a.exr --sampler halton --quiet");
+  EXPECT_EQ(halton.exit_code, 0) << halton.err;
+  EXPECT_TRUE(has(halton.err, "note: sampler \"halton\" is rendered with \"sobol\"")) << halton.err;
+  EXPECT_TRUE(has(halton.out, "4 spp")) << halton.out;
+  for (const char* name : {"stratified", "pmj02bn", "zsobol", "paddedsobol"})
+    EXPECT_TRUE(has(run(std::string("render s.pbrt -o a.exr --sampler ") + name).out, " 4 spp")) << name;
+  const Finished wrong = run("render s.pbrt -o b.exr --sampler haltom");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(has(wrong.err, "did you mean \"halton\"?")) << wrong.err;
+}
+
+TEST_F(Cli, SubstitutesStandInTheImage) {
+  folder_.write("s.pbrt", std::string("Integrator \"ambientocclusion\"\n") + kScene +
+                              "Material \"hair\"\nShape \"sphere\" \"float radius\" 0.1\n");
+  Finished done = run("render s.pbrt -o a.exr");
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_TRUE(has(done.err, "error: integrator \"ambientocclusion\" is not supported yet")) << done.err;
+  EXPECT_FALSE(exists("a.exr"));
+  done = run("render s.pbrt -o a.exr --allow-unsupported");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const LayersResult read = read_layers(folder_.path() / "a.exr");
+  ASSERT_TRUE(read.image) << read.error;
+  for (const char* key : {"etendue:substitutes", "etendue:biased"}) {
+    const std::string value = std::get<std::string>(*read.image->find_metadata(key));
+    EXPECT_TRUE(has(value, "integrator \"ambientocclusion\": the light of the scene by \"path\"")) << value;
+    EXPECT_TRUE(has(value, "material \"hair\": a diffuse material of the same colour")) << value;
+  }
+  folder_.write("t.pbrt", kScene);
+  ASSERT_EQ(run("render t.pbrt -o b.exr --allow-unsupported").exit_code, 0);
+  const LayersResult plain = read_layers(folder_.path() / "b.exr");
+  EXPECT_EQ(std::get<std::string>(*plain.image->find_metadata("etendue:substitutes")), "none");
+  EXPECT_FALSE(has(std::get<std::string>(*plain.image->find_metadata("etendue:biased")), "substitutes"));
+}
+
+TEST_F(Cli, NotesArePrintedOnce) {
+  folder_.write("s.pbrt", std::string("Sampler \"halton\" \"integer pixelsamples\" 3\nAccelerator \"bvh\"\n") + kScene);
+  for (const char* command :
+       {"render s.pbrt -o a.exr --sampler halton", "verify scene s.pbrt --spp 3", "info s.pbrt", "check s.pbrt"}) {
+    const std::string err = run(command).err;
+    for (const char* note : {"Accelerator is not used", "sampler \"halton\" is rendered with"}) {
+      const size_t first = err.find(note);
+      EXPECT_NE(first, std::string::npos) << command << err;
+      EXPECT_EQ(err.find(note, first + 1), std::string::npos) << command << err;
+    }
+  }
+}
+
 TEST_F(Cli, UnwritableOutputsAreFoundBeforeAnythingElse) {
   for (const char* arguments : {"-o absent/a.exr", "-o a.exr --stats absent/a.json"}) {
     const Finished done = run(std::string("render no-such-scene.pbrt ") + arguments);

@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "contradictions.h"
 #include "formats/foreign.h"
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
@@ -68,7 +69,7 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
   add_value(command, "--replicates", o.replicates,
             "independent estimates that the samples are divided into (2); from 4 on their spread gives the error", "R");
   add_value(command, "--seed", o.seed, "another seed gives another estimate; the same one gives the same bits", "N");
-  add_value(command, "--sampler", o.sampler, "sobol or independent", "NAME");
+  add_value(command, "--sampler", o.sampler, "sobol or independent; other names as scenes take them", "NAME");
   // Short names for parameters of the integrator.
   const auto shorthand = [&](const std::string& option, const char* key, const char* help, const char* type) {
     command
@@ -76,19 +77,20 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
             option, [&o, key](const std::string& text) { o.set.emplace_back(key, text); }, help)
         ->type_name(type);
   };
-  shorthand("--max-depth", "integrator.maxdepth", "the longest path, in scattering events", "N");
-  shorthand("--mode", "integrator.mode", "how paths find light: naive, next_event or mis", "NAME");
-  shorthand("--components", "integrator.components", "all, or only direct, indirect or emission", "NAME");
+  for (const Shorthand& s : kShorthands) shorthand(s.option, s.setting, s.help, s.type);
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
           [&o](const std::vector<std::string>& texts) {
+            const size_t shorthands = o.set.size();  // the parser takes options in the order in which they are added
             for (const std::string& text : texts) {
               const size_t equals = text.find('=');
               if (equals == std::string::npos)
                 throw CLI::ValidationError("--set", "\"" + text + "\" is not NAME=VALUE, as in integrator.maxdepth=8");
               o.set.emplace_back(text.substr(0, equals), text.substr(equals + 1));
             }
+            if (const std::string problem = find_contradiction(o, shorthands); !problem.empty())
+              throw CLI::ValidationError("options", problem);
           },
           "set any parameter of film, sampler or integrator (etendue describe integrator)")
       ->type_name("NAME=VALUE")

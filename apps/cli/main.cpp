@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <sstream>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "other_options.h"
 #include "params/diagnostics.h"
 #include "printing.h"
 #include "render/interrupt.h"
@@ -39,9 +41,33 @@ bool report_unknown_command(const CLI::App& app, const char* word) {
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string_view near = etd::nearest_name(word, views);
   etd::cli::tell("etendue: there is no command \"{}\"\n", word);
-  if (!near.empty()) etd::cli::tell("  did you mean \"{}\"?\n", near);
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored))
+    etd::cli::tell("  did you mean \"etendue render {}\"?\n", word);
+  else if (!near.empty())
+    etd::cli::tell("  did you mean \"{}\"?\n", near);
   etd::cli::tell("  valid: {}\n", fmt::join(names, ", "));
   return true;
+}
+
+// What is wrong with the options, in words that help more than the parser's; empty when it is something else.
+std::string unknown_options(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  int i = 1;
+  for (; i < argc; ++i) {
+    const auto named = [&](const CLI::App* c) { return c->get_name() == argv[i]; };
+    const std::vector<const CLI::App*> found = command->get_subcommands(named);
+    if (found.empty()) break;
+    command = found[0];
+  }
+  // Without a command, the options are those of a render.
+  std::string text;
+  if (command == &app) {
+    text = "etendue: a command comes first, as in `etendue render SCENE`\n";
+    command = app.get_subcommand("render");
+  }
+  const std::string unknown = etd::cli::unknown_options(*command, {argv + i, argv + argc});
+  return unknown.empty() ? unknown : text + unknown;
 }
 
 // An empty text is no file, name or number: mostly it is a variable of a script that was never set.
@@ -88,7 +114,10 @@ int main(int argc, char** argv) {
     etd::cli::tell_of_refused_threads();
     return etd::cli::code_after_answers(code, etd::cli::kInternalError);
   } catch (const CLI::ParseError& e) {
-    return say_parse_result(app, e);
+    const std::string unknown = e.get_exit_code() == 0 ? std::string() : unknown_options(app, argc, argv);
+    if (unknown.empty()) return say_parse_result(app, e);
+    etd::cli::tell("{}", unknown);
+    return etd::cli::kBadInput;
   } catch (const std::bad_alloc&) {
     etd::cli::tell("etendue: out of memory; `etendue info SCENE` says how much a render takes\n");
   } catch (const std::exception& e) {

@@ -1,6 +1,7 @@
 // `etendue render`: a scene goes in, pictures come out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <set>
@@ -63,6 +64,15 @@ std::string output_problem(const std::vector<std::string>& outputs, const Argume
   for (const std::string& path : images)
     if (std::string problem = check(path, check_output_path(path)); !problem.empty()) return problem;
   return args.stats.empty() ? std::string() : check(args.stats, place_problem(args.stats));
+}
+
+// Where the picture goes that the scene's film names, with either kind of slash: there if its folder exists, seen from
+// the current one, and otherwise into the current one.
+std::string output_of_film(std::string filename) {
+  std::replace(filename.begin(), filename.end(), '\\', '/');
+  const std::filesystem::path wanted = filename;
+  std::error_code ignored;
+  return std::filesystem::is_directory(wanted.parent_path(), ignored) ? filename : wanted.filename().string();
 }
 
 // Why there are not all the samples that were asked for.
@@ -132,7 +142,7 @@ int render_scene(const Arguments& args) {
 
   std::vector<std::string> outputs = args.outputs;
   if (outputs.empty()) {
-    outputs.push_back(std::filesystem::path(prepared->settings.filename).filename().string());
+    outputs.push_back(output_of_film(prepared->settings.filename));
     if (const std::string problem = output_problem(outputs, args); !problem.empty()) return fail(problem);
   }
 
@@ -169,9 +179,10 @@ void add_render(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to image files.");
   add_scene_options(*command, args);
   command
-      ->add_option("-o,--output", args->outputs,
-                   "where the picture goes, several times if wanted: .exr holds all layers; .png, .jpg, .hdr and .pfm "
-                   "the picture (default: the name in the scene's film, in the current folder)")
+      ->add_option(
+          "-o,--output", args->outputs,
+          "where the picture goes, several times if wanted: .exr holds all layers; .png, .jpg, .hdr and .pfm "
+          "the picture (default: what the scene's film names, in the current folder if the film's own does not exist)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_override_options(*command, args);

@@ -4,6 +4,7 @@
 
 #include "core/warp.h"
 #include "io/image.h"
+#include "io/missing_file.h"
 
 namespace etd {
 
@@ -96,7 +97,10 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
                            CameraData& data) {
   const std::string& name = file.strings[0];
   const auto fail = [&](const std::string& problem) {
-    p.diagnostics().error(file.value_loc, problem, "valid: an image file, or gaussian, square, pentagon, star");
+    const std::string missing = missing_file_hint({folder}, name);
+    p.diagnostics().error(
+        file.value_loc, problem,
+        (missing.empty() ? "" : missing + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
     return Aperture();
   };
   const ImageResult result = read_image(folder / name);

@@ -9,6 +9,7 @@
 #include "scene/compile_geometry.h"
 #include "scene/compile_lights.h"
 #include "scene/registry.h"
+#include "scene/visibility.h"
 
 namespace etd {
 
@@ -148,6 +149,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
         PixelFootprint(scene->camera, options.width, options.height, PixelFootprint::scale_for(options.spp));
   if (diagnostics.has_errors()) return nullptr;
 
+  warn_if_nothing_shows(*scene, diagnostics);
   scene->light_sampler = LightSampler(scene->lights);
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
   return scene;

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "io/missing_file.h"
 #include "io/obj.h"
 #include "shapes/alpha.h"
 
@@ -209,8 +210,9 @@ std::optional<MeshData> as_triangles(const PatchData& data) {
 }
 
 void report_mesh_problems(std::span<const std::string> problems, std::span<const std::string> notes, SourceLoc loc,
-                          const std::string& name, Diagnostics& diagnostics) {
-  for (const std::string& problem : problems) diagnostics.error(loc, fmt::format("{}: {}", name, problem));
+                          const std::filesystem::path& folder, const std::string& name, Diagnostics& diagnostics) {
+  for (const std::string& problem : problems)
+    diagnostics.error(loc, fmt::format("{}: {}", name, problem), missing_file_hint({folder}, name));
   for (const std::string& note : notes) diagnostics.note(loc, fmt::format("{}: {}", name, note));
 }
 
@@ -220,7 +222,7 @@ std::optional<MeshData> make_mesh_from_file(const ParamReader& p, const std::fil
   const std::filesystem::path path = folder / file->strings[0];
   const std::string& model = p.decl().name;
   MeshResult result = model == "plymesh" ? read_ply(path) : model == "offmesh" ? read_off(path) : read_obj_mesh(path);
-  report_mesh_problems(result.problems, result.notes, file->value_loc, file->strings[0], p.diagnostics());
+  report_mesh_problems(result.problems, result.notes, file->value_loc, folder, file->strings[0], p.diagnostics());
   return std::move(result.mesh);
 }
 

@@ -30,8 +30,8 @@ std::optional<MeshData> as_triangles(const PatchData& data);
 // The mesh of the file that "filename" names, in the format of the model.
 std::optional<MeshData> make_mesh_from_file(const ParamReader& p, const std::filesystem::path& folder);
 
-// Reports what a mesh file is wrong about at the place that names it; `name` is the file's.
+// Reports what a mesh file is wrong about at the place that names it; `name` is the file's, seen from `folder`.
 void report_mesh_problems(std::span<const std::string> problems, std::span<const std::string> notes, SourceLoc loc,
-                          const std::string& name, Diagnostics& diagnostics);
+                          const std::filesystem::path& folder, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace etd

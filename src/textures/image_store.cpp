@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/hash.h"
+#include "io/missing_file.h"
 #include "textures/pyramid.h"
 
 namespace etd {
@@ -66,7 +67,8 @@ void ImageStore::load(const TextureMemory& memory, Diagnostics& diagnostics) {
 std::optional<Image> ImageStore::read(const Request& r, Diagnostics& diagnostics) const {
   ImageResult result = read_image(r.path, r.encoding);
   if (result.image) return without_opaque_alpha(std::move(*result.image));
-  diagnostics.error(r.loc, fmt::format("cannot read image \"{}\": {}", r.name, result.error));
+  diagnostics.error(r.loc, fmt::format("cannot read image \"{}\": {}", r.name, result.error),
+                    missing_file_hint({folder_}, r.name));
   return {};
 }
 

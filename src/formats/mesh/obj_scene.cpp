@@ -178,7 +178,7 @@ std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, 
   const Param* file = p.given("filename");
   if (!file || !p.boolean("materials")) return {std::move(shape)};
   ObjResult obj = read_obj(scene.folder / file->strings[0]);
-  report_mesh_problems(obj.problems, obj.notes, file->value_loc, file->strings[0], diagnostics);
+  report_mesh_problems(obj.problems, obj.notes, file->value_loc, scene.folder, file->strings[0], diagnostics);
   if (!obj.problems.empty()) return {};
   const std::string name = file->strings[0];
   return add_obj(std::move(obj), name, shape, scene, diagnostics);

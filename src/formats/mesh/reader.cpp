@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 3> kEndings = {".obj", ".off", ".ply"};
 std::optional<MeshData> read_plain_mesh(const std::filesystem::path& file, const std::string& ending,
                                         Diagnostics& diagnostics) {
   MeshResult result = ending == ".ply" ? read_ply(file) : read_off(file);
-  report_mesh_problems(result.problems, result.notes, {}, file.string(), diagnostics);
+  report_mesh_problems(result.problems, result.notes, {}, {}, file.string(), diagnostics);
   return std::move(result.mesh);
 }
 
@@ -121,7 +121,7 @@ SceneDescription read_mesh_scene(const std::filesystem::path& file, Diagnostics&
   const std::string ending = uncompressed_ending(file);
   if (ending == ".obj") {
     ObjResult obj = read_obj(file);
-    report_mesh_problems(obj.problems, obj.notes, {}, file.string(), diagnostics);
+    report_mesh_problems(obj.problems, obj.notes, {}, {}, file.string(), diagnostics);
     scene.shapes = add_obj(std::move(obj), file.filename(), grey, scene, diagnostics);
   } else if (const auto mesh = read_plain_mesh(file, ending, diagnostics)) {
     scene.shapes.push_back(grey);

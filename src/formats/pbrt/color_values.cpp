@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "formats/pbrt/tokenizer.h"
+#include "io/missing_file.h"
 #include "io/text_file.h"
 #include "spectrum/named.h"
 
@@ -34,8 +35,10 @@ void convert_rgb(Param& p, ColorRole role, ColorSpace space, Diagnostics& diagno
 void read_spectrum_file(Param& p, const std::filesystem::path& folder, Diagnostics& diagnostics) {
   const FileBytes file = read_text_file(folder / p.strings[0]);
   const auto fail = [&](const std::string& why) {
+    const std::string missing = missing_file_hint({folder}, p.strings[0]);
     diagnostics.error(p.value_loc, fmt::format("cannot read spectrum \"{}\": {}", p.strings[0], why),
-                      fmt::format("valid: a file of wavelengths and values, or one of {}", named_spectra()));
+                      fmt::format("{}{}valid: a file of wavelengths and values, or one of {}", missing,
+                                  missing.empty() ? "" : "\n", named_spectra()));
     p.malformed = true;
   };
   if (!file.error.empty()) return fail(file.error);

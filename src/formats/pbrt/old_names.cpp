@@ -150,6 +150,22 @@ std::string old_texture_kind_hint(std::string_view kind, const SourceLoc& loc, D
   return "\"color\" is of pbrt-v3: write \"spectrum\"";
 }
 
+void reject_old_blackbody(Param& param, Diagnostics& diagnostics) {
+  const std::vector<double>& n = param.numbers;
+  if (param.kind != ParamKind::kBlackbody || param.malformed || n.empty() || n.size() % 2 != 0) return;
+  note_converter(param.loc, diagnostics);
+  const std::string now =
+      n.size() > 2 ? fmt::format("pbrt-v4 has no sums, one \"blackbody {}\" is one temperature", param.name)
+      : n[1] == 1
+          ? fmt::format("write \"blackbody {}\" {:g}", param.name, n[0])
+          : fmt::format("write \"blackbody {}\" {:g}, and for a light \"float scale\" {:g}", param.name, n[0], n[1]);
+  diagnostics.error(
+      param.value_loc,
+      fmt::format("\"blackbody {}\" takes one temperature in kelvin, not {} numbers", param.name, n.size()),
+      fmt::format("a temperature with a factor is of pbrt-v3: {}", now));
+  param.malformed = true;
+}
+
 void drop_old_params(Family family, ModelUse& use, Diagnostics& diagnostics) {
   const ModelDecl* model = find_any_model(family, use.model);
   if (!model) return;

@@ -15,6 +15,9 @@ std::string old_directive_hint(std::string_view word, const SourceLoc& loc, Diag
 std::string old_type_hint(std::string_view type, std::string_view name, const SourceLoc& loc, Diagnostics& diagnostics);
 std::string old_texture_kind_hint(std::string_view kind, const SourceLoc& loc, Diagnostics& diagnostics);
 
+// Reports a temperature with a factor, as pbrt-v3 writes a blackbody, and marks the parameter as malformed.
+void reject_old_blackbody(Param& param, Diagnostics& diagnostics);
+
 bool is_old_directive(std::string_view word);
 
 // Reports the parameters of pbrt-v3 that the model does not have, and takes them out.

@@ -108,6 +108,7 @@ class ParameterReader {
     param_.loc = param_.value_loc = head.loc;
     read_values(head, usable);
     if (!usable) return {};
+    reject_old_blackbody(param_, diagnostics_);
     return std::move(param_);
   }
 

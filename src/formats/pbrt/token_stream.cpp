@@ -7,6 +7,7 @@
 
 #include "formats/foreign.h"
 #include "io/gzip.h"
+#include "io/missing_file.h"
 #include "io/text_file.h"
 
 namespace etd::pbrt {
@@ -50,7 +51,9 @@ int32_t TokenStream::push_text(std::string text, const std::string& name) {
   return source;
 }
 
-int32_t TokenStream::push_main(const fs::path& file) { return push_file(file, {}, false); }
+int32_t TokenStream::push_main(const fs::path& file) {
+  return push_file(file, {}, false, missing_file_hint({fs::path()}, file.string()));
+}
 
 bool TokenStream::push_included(const std::string& name, const SourceLoc& loc, bool isolated) {
   const fs::path given = name;
@@ -58,16 +61,17 @@ bool TokenStream::push_included(const std::string& name, const SourceLoc& loc, b
     diagnostics_.error(loc, "the name of the file is empty");
     return false;
   }
-  fs::path path = (folder_ / given).lexically_normal();
+  // Names start in the folder of the scene, and where nothing is there, in that of the file that they stand in.
+  std::vector<fs::path> folders = {folder_};
+  if (!files_.empty() && !files_.back().path.empty()) folders.push_back(files_.back().path.parent_path());
   std::error_code error;
-  if (!fs::exists(path, error) && !files_.empty() && !files_.back().path.empty()) {
-    const fs::path beside = (files_.back().path.parent_path() / given).lexically_normal();
-    if (fs::exists(beside, error)) path = beside;
-  }
-  return push_file(path, loc, isolated) >= 0;
+  const auto found =
+      std::find_if(folders.begin(), folders.end(), [&](const auto& f) { return fs::exists(f / given, error); });
+  const fs::path path = ((found == folders.end() ? folder_ : *found) / given).lexically_normal();
+  return push_file(path, loc, isolated, missing_file_hint(folders, name)) >= 0;
 }
 
-int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool isolated) {
+int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool isolated, const std::string& missing) {
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(path, error);
   if (closes_a_loop(canonical, loc)) return -1;
@@ -75,7 +79,7 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
   if (known == read_.end()) {
     Bytes bytes = read_bytes(path);
     if (!bytes.problem.empty()) {
-      diagnostics_.error(loc, fmt::format("the file \"{}\" {}", path.string(), bytes.problem));
+      diagnostics_.error(loc, fmt::format("the file \"{}\" {}", path.string(), bytes.problem), missing);
       return -1;
     }
     if (is_gzip(bytes.text)) {

@@ -36,7 +36,8 @@ class TokenStream {
     bool isolated = false;
   };
 
-  int32_t push_file(const std::filesystem::path& path, const SourceLoc& loc, bool isolated);
+  // `missing`: what to tell when there is no such file.
+  int32_t push_file(const std::filesystem::path& path, const SourceLoc& loc, bool isolated, const std::string& missing);
   bool closes_a_loop(const std::filesystem::path& canonical, const SourceLoc& loc);
 
   std::filesystem::path folder_;
