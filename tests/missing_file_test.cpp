@@ -52,6 +52,14 @@ TEST_F(MissingFile, FindsWhatWasMeant) {
   EXPECT_EQ(hint("old/textures").find("did you mean"), std::string::npos);
 }
 
+// "\n" and "\t" in a scene are the ends of lines and tabs that nobody meant.
+TEST_F(MissingFile, KnowsEscapesThatWereFolders) {
+  folder_.write("textures/new.png", "");
+  EXPECT_NE(hint("textures\new.png").find("did you mean \"textures/new.png\"?"), std::string::npos);
+  EXPECT_NE(hint("a\textures\new.png").find("did you mean \"textures/new.png\"?"), std::string::npos);
+  EXPECT_NE(hint("a\bunny.ply").find("folders are separated by slashes: \"a/bunny.ply\""), std::string::npos);
+}
+
 TEST_F(MissingFile, ExplainsBackslashesWhereNothingIsFound) {
   EXPECT_EQ(hint("C:\\scenes\\absent.png"),
             "it was looked for in " + here() + "\nfolders are separated by slashes: \"scenes/absent.png\"");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace etd {
@@ -11,6 +12,17 @@ namespace etd {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The name as it was probably written: scene languages take the backslash in "textures\new" for half of a line's end.
+std::string as_written(const std::string& name) {
+  constexpr std::string_view kMeant = "\b\f\n\r\t", kLetters = "bfnrt";
+  std::string text;
+  for (const char c : name) {
+    const size_t i = kMeant.find(c);
+    text += i == std::string_view::npos ? std::string(1, c) : std::string{'\\', kLetters[i]};
+  }
+  return text;
+}
 
 // Between folders both slashes count; the letter of a drive is no folder.
 std::vector<std::string> parts_of(const std::string& name) {
@@ -68,12 +80,13 @@ std::string missing_file_hint(const std::vector<fs::path>& folders, const std::s
     if (std::find(places.begin(), places.end(), text) == places.end()) places.push_back(std::move(text));
   }
   std::string hint = fmt::format("it was looked for in {}", fmt::join(places, " and in "));
-  const std::vector<std::string> parts = parts_of(name);
+  const std::string written = as_written(name);
+  const std::vector<std::string> parts = parts_of(written);
   for (const fs::path& folder : folders)
     for (size_t first = 0; first < parts.size(); ++first)
       if (const auto found = find_file(folder, parts, first))
         return hint + fmt::format("\ndid you mean \"{}\"?", found->string());
-  if (name.find('\\') != std::string::npos)
+  if (written.find('\\') != std::string::npos)
     hint += fmt::format("\nfolders are separated by slashes: \"{}\"", fmt::join(parts, "/"));
   return hint;
 }

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "io/mesh_faces.h"
+#include "io/missing_file.h"
 #include "io/text_file.h"
 #include "io/text_lines.h"
 
@@ -207,8 +208,12 @@ void ObjReader::load_materials() {
     std::replace(name.begin(), name.end(), '\\', '/');
     if (!loaded_.insert(name).second) continue;
     const std::filesystem::path file = name;
-    if (const std::string error = read_mtl(folder_ / file, file.parent_path(), result_); !error.empty())
-      result_.notes.push_back(fmt::format("line {}: cannot read {}: {}", lines_.line(), in_quotes(name), error));
+    std::string error = read_mtl(folder_ / file, file.parent_path(), result_);
+    if (error.empty()) continue;
+    std::string missing = missing_file_hint({folder_}, name);
+    std::replace(missing.begin(), missing.end(), '\n', ' ');
+    if (!missing.empty()) error += "; " + missing;
+    result_.notes.push_back(fmt::format("line {}: cannot read {}: {}", lines_.line(), in_quotes(name), error));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace etd {
 
@@ -32,7 +33,7 @@ class LightPlacer {
       diagnostics.error(largest->loc, fmt::format("instances place {:.3g} lights", count),
                         fmt::format("the limit is {:.0f}", kMostLights));
     } else {
-      for (const InstanceDesc& i : description_.instances) add(i, TransformPath());
+      for (const InstanceDesc& i : description_.instances) add(i);
     }
     return std::move(placed_);
   }
@@ -45,15 +46,21 @@ class LightPlacer {
     return sum;
   }
 
-  void add(const InstanceDesc& instance, const TransformPath& outside) {
-    // What has no inverse is reported with the geometry.
-    if (lights_of(instance) == 0 || instance.to_world.start.is_singular() || instance.to_world.end.is_singular())
-      return;
-    const auto index = static_cast<size_t>(instance.object);
-    const ObjectDesc& object = description_.objects[index];
-    const TransformPath to_world = outside.then(instance.to_world);
-    for (size_t i = 0; i < object.lights.size(); ++i) placed_[first_[index] + i].places.push_back(to_world);
-    for (const InstanceDesc& inner : object.instances) add(inner, to_world);
+  // All lights of an instance and of those in it; without recursion, because nothing limits how deep they go.
+  void add(const InstanceDesc& root) {
+    std::vector<std::pair<const InstanceDesc*, TransformPath>> open = {{&root, {}}};
+    while (!open.empty()) {
+      const auto [instance, outside] = std::move(open.back());
+      open.pop_back();
+      // What has no inverse is reported with the geometry.
+      const TransformPair& t = instance->to_world;
+      if (lights_of(*instance) == 0 || t.start.is_singular() || t.end.is_singular()) continue;
+      const auto index = static_cast<size_t>(instance->object);
+      const ObjectDesc& object = description_.objects[index];
+      const TransformPath to_world = outside.then(t);
+      for (size_t i = 0; i < object.lights.size(); ++i) placed_[first_[index] + i].places.push_back(to_world);
+      for (auto i = object.instances.rbegin(); i != object.instances.rend(); ++i) open.emplace_back(&*i, to_world);
+    }
   }
 
   const SceneDescription& description_;
