@@ -77,7 +77,7 @@ class MirroredDetail : public ::testing::TestWithParam<Subject> {
     std::string world = "WorldBegin\n";
     if (s.instanced)
       world += "ObjectBegin \"o\"\n" + shape + "ObjectEnd\n" + matrix(s.to_world) +
-               "ObjectInstance \"o\"\nTranslate 1000 0 0\nObjectInstance \"o\"\n";
+               "ObjectInstance \"o\"\nTranslate 9 0 0\nObjectInstance \"o\"\n";
     else
       world += matrix(s.to_world) + shape;
     Diagnostics diagnostics;

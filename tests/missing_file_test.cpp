@@ -45,7 +45,7 @@ TEST_F(MissingFile, SaysWhereItWasLookedFor) {
 TEST_F(MissingFile, FindsWhatWasMeant) {
   for (const char* name :
        {"textures\\wood\\Oak.png", "textures\\wood/oak.png", "C:\\Users\\me\\scene\\textures\\wood\\Oak.png",
-        "/home/me/scene/textures/wood/Oak.png", "Textures/Wood/OAK.PNG", ".\\textures\\wood\\Oak.png"})
+        "/elsewhere/scene/textures/wood/Oak.png", "Textures/Wood/OAK.PNG", ".\\textures\\wood\\Oak.png"})
     EXPECT_NE(hint(name).find("\ndid you mean \"textures/wood/Oak.png\"?"), std::string::npos) << hint(name);
   EXPECT_NE(hint("..\\meshes\\mesh.ply").find("did you mean \"mesh.ply\"?"), std::string::npos);
   // A folder is no file.
@@ -68,18 +68,18 @@ TEST_F(MissingFile, ExplainsBackslashesWhereNothingIsFound) {
 // Every kind of file that a scene can name.
 TEST_F(MissingFile, IsAnsweredInEveryDirective) {
   for (const char* text :
-       {"WorldBegin\nInclude \"a\\x.pbrt\"", "WorldBegin\nImport \"a\\x.pbrt\"",
-        "WorldBegin\nShape \"plymesh\" \"string filename\" \"a\\x.ply\"",
-        "WorldBegin\nShape \"offmesh\" \"string filename\" \"a\\x.off\"",
-        "WorldBegin\nShape \"objmesh\" \"string filename\" \"a\\x.obj\"",
-        "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a\\x.png\"",
-        "WorldBegin\nMaterial \"diffuse\" \"string normalmap\" \"a\\x.png\"",
-        "WorldBegin\nMaterial \"diffuse\" \"spectrum reflectance\" \"a\\x.spd\"",
-        "WorldBegin\nLightSource \"infinite\" \"string filename\" \"a\\x.exr\"",
-        "WorldBegin\nLightSource \"goniometric\" \"string filename\" \"a\\x.exr\"",
-        "WorldBegin\nLightSource \"projection\" \"string filename\" \"a\\x.exr\"",
-        "WorldBegin\nAreaLightSource \"diffuse\" \"string filename\" \"a\\x.exr\"\nShape \"sphere\"",
-        "Camera \"perspective\" \"string aperture\" \"a\\x.exr\" \"float lensradius\" 1\nWorldBegin"}) {
+       {"WorldBegin\nInclude \"a\\\\x.pbrt\"", "WorldBegin\nImport \"a\\\\x.pbrt\"",
+        "WorldBegin\nShape \"plymesh\" \"string filename\" \"a\\\\x.ply\"",
+        "WorldBegin\nShape \"offmesh\" \"string filename\" \"a\\\\x.off\"",
+        "WorldBegin\nShape \"objmesh\" \"string filename\" \"a\\\\x.obj\"",
+        "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a\\\\x.png\"",
+        "WorldBegin\nMaterial \"diffuse\" \"string normalmap\" \"a\\\\x.png\"",
+        "WorldBegin\nMaterial \"diffuse\" \"spectrum reflectance\" \"a\\\\x.spd\"",
+        "WorldBegin\nLightSource \"infinite\" \"string filename\" \"a\\\\x.exr\"",
+        "WorldBegin\nLightSource \"goniometric\" \"string filename\" \"a\\\\x.exr\"",
+        "WorldBegin\nLightSource \"projection\" \"string filename\" \"a\\\\x.exr\"",
+        "WorldBegin\nAreaLightSource \"diffuse\" \"string filename\" \"a\\\\x.exr\"\nShape \"sphere\"",
+        "Camera \"perspective\" \"string aperture\" \"a\\\\x.exr\" \"float lensradius\" 1\nWorldBegin"}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(compile(read_pbrt_text(text, "test", folder_.path(), diagnostics), {16, 16}, diagnostics)) << text;
     EXPECT_EQ(diagnostics.error_count(), 1) << diagnostics.format_all();

@@ -15,8 +15,9 @@ bool is_smooth(const Material& material, const Scene& scene) {
   HashStream rng(1);
   for (int i = 0; i < kPlaces; ++i) {
     TexCoord at;
-    at.uv = {rng.next_float(), rng.next_float()};
-    at.p = {rng.next_float(), rng.next_float(), rng.next_float()};
+    const float range = i % 2 == 0 ? 1.0f : 16.0f;  // within a texture, and over repeated ones
+    at.uv = {range * rng.next_float(), range * rng.next_float()};
+    at.p = {range * rng.next_float(), range * rng.next_float(), range * rng.next_float()};
     at.n = {0, 0, 1};
     if (!material.closure(at, scene.textures).is_delta_only()) return false;
   }
