@@ -62,6 +62,7 @@ TEST_F(CliLimits, WithLittleMemoryNoRenderIsLost) {
 }
 
 TEST_F(CliLimits, FewerThreadsThanWantedChangeNothingButTheTime) {
+  if (kSlowBuild) GTEST_SKIP() << "a sanitizer needs a thread of its own";
   folder_.write("s.pbrt", kScene);
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
   ASSERT_EQ(run("render s.pbrt --threads 1 -o a.pfm").exit_code, 0);

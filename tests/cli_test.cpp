@@ -41,6 +41,7 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
            {"render s.pbrt --stats ''", "--stats: the value is empty"},
            {"tonemap '' a.png", "input: the value is empty"},
            {"verify scene s.pbrt -o ''", "--output: the value is empty"},
+           {"render s.pbrt --stats ./s.pbrt", "the output ./s.pbrt is the scene itself"},
            {"render s.pbrt --stats /dev/null", "/dev/null is not a file that can be replaced"},
            {"render s.blend", "names no scene language that is read; it is that of Blender files"},
            {"render absent.pbrt", "absent.pbrt"},

@@ -43,7 +43,7 @@ constexpr const char* kExamples =
     "\n"
     "--time and --error put the scene's number of samples out of force; --spp still holds. The error is tested\n"
     "at 32, 64, 128 ... samples per pixel, and a render that tests it is labelled biased in its metadata.\n"
-    "Ctrl-C finishes what runs, writes the image so far and exits with 130.";
+    "Ctrl-C finishes what runs, writes the image so far and exits with 130; a second one ends at once.";
 
 int fail(const std::string& message) {
   tell("etendue: {}\n", message);
@@ -52,12 +52,14 @@ int fail(const std::string& message) {
 
 // Why one of these cannot be written; empty when all can. Found before any work is done.
 std::string output_problem(const std::vector<std::string>& outputs, const Arguments& args) {
+  const auto place = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path)));
+  };
   std::set<std::filesystem::path> places;
-  const auto check = [&places](const std::string& path, const std::string& problem) -> std::string {
+  const auto check = [&](const std::string& path, const std::string& problem) -> std::string {
     if (!problem.empty()) return fmt::format("cannot write {}: {}", path, problem);
-    if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path)))).second)
-      return fmt::format("the output {} is given twice", path);
-    return {};
+    if (place(path) == place(args.scene)) return fmt::format("the output {} is the scene itself", path);
+    return places.insert(place(path)).second ? std::string() : fmt::format("the output {} is given twice", path);
   };
   std::vector<std::string> images = outputs;
   if (!args.watch.preview.empty()) images.push_back(args.watch.preview);
