@@ -56,12 +56,12 @@ TEST(Obj, JoinsTheFacesOfAMaterial) {
       read_text(text,
                 "newmtl red paint\nKd 1 0 0\nKs .5\nNs 100\nd 0.25\nKa 1 1 1\nillum 2\n"
                 "map_Kd -s 2 3 1 -o .5 -clamp on dir\\a b.png\n\nnewmtl blue\nKe 0 0 4\nTr 0.25\nNi 1.5\n"
-                "Pr 0.5\nPm 1\nmap_Bump x.png\n");
+                "Pr 0.5\nPm 1\nmap_Ns x.png\nmap_Bump -bm .25 -s 2 x.png\nnorm n 1.png -clamp on -o 1 2\n");
   ASSERT_EQ(r.parts.size(), 3u);
   EXPECT_EQ(r.parts[0].material, "");
   EXPECT_EQ(r.parts[1].material, "red paint");
   EXPECT_EQ(r.parts[1].mesh.triangles.size(), 2u);
-  EXPECT_EQ(r.notes, std::vector<std::string>{"m.mtl: not used: map_Bump"});
+  EXPECT_EQ(r.notes, std::vector<std::string>{"m.mtl: not used: map_Ns"});
   const ObjMaterial* red = r.find("red paint");
   ASSERT_TRUE(red);
   EXPECT_EQ(red->kd, (Vec3{1, 0, 0}));
@@ -76,6 +76,12 @@ TEST(Obj, JoinsTheFacesOfAMaterial) {
   EXPECT_EQ(blue->ke, (Vec3{0, 0, 4}));
   EXPECT_EQ(blue->d, 0.75);
   EXPECT_EQ(blue->pr, 0.5);
+  EXPECT_EQ(blue->bump.file, "x.png");
+  EXPECT_EQ(blue->bump.height, 0.25);
+  EXPECT_EQ(blue->bump.scale, (Vec2{2, 1}));
+  EXPECT_EQ(blue->normal.file, "n 1.png");
+  EXPECT_EQ(blue->normal.offset, (Vec2{1, 2}));
+  EXPECT_TRUE(blue->normal.clamp);
 }
 
 TEST(Obj, NotesWhatItLeavesOut) {
@@ -88,12 +94,17 @@ TEST(Obj, NotesWhatItLeavesOut) {
                                                "corners without texture coordinates have (0, 0), as others have them",
                                                "statements not used: l"}));
   const ObjResult bad = read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\nf 1 2 3\n",
-                                  "Kd 1 1 1\nnewmtl a\nKd red\nNs -1\nillum 99\nmap_Kd\n");
-  EXPECT_EQ(bad.notes, (std::vector<std::string>{"m.mtl: line 1: \"Kd\" stands before the first newmtl",
-                                                 "m.mtl: line 3: Kd needs three numbers that are not negative",
-                                                 "m.mtl: line 4: Ns needs one number from 0 to 1000000000",
-                                                 "m.mtl: line 5: illum needs one number from 0 to 10",
-                                                 "m.mtl: line 6: map_Kd names no file"}));
+                                  "Kd 1 1 1\nnewmtl a\nKd red\nNs -1\nillum 99\nmap_Kd\n"
+                                  "map_Kd -bm 2 -mm 0 1 -foo 3 a.png\nbump -bm much -imfchan l b.png\nnorm -bm\n");
+  EXPECT_EQ(bad.notes, (std::vector<std::string>{
+                           "m.mtl: line 1: \"Kd\" stands before the first newmtl",
+                           "m.mtl: line 3: Kd needs three numbers that are not negative",
+                           "m.mtl: line 4: Ns needs one number from 0 to 1000000000",
+                           "m.mtl: line 5: illum needs one number from 0 to 10", "m.mtl: line 6: map_Kd names no file",
+                           "m.mtl: line 7: map_Kd -bm is not used", "m.mtl: line 7: map_Kd -mm is not used",
+                           "m.mtl: line 7: map_Kd -foo is not used", "m.mtl: line 8: bump -bm needs a number",
+                           "m.mtl: line 8: bump -imfchan is not used", "m.mtl: line 9: norm -bm is not used",
+                           "m.mtl: line 9: norm names no file"}));
 }
 
 TEST(Obj, LeavesOutWhatCannotBeDrawn) {

@@ -48,6 +48,10 @@ void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>&
                   "a mesh to look at: .obj, .off, .ply")
       ->required()
       ->type_name("SCENE");
+  command
+      .add_option("--camera", args->camera,
+                  "look at the scene as this file says: a .pbrt file, of which what stands before WorldBegin counts")
+      ->type_name("FILE");
   command.add_flag("--allow-unsupported", args->allow_unsupported,
                    "replace what is not supported yet by named substitutes, with a warning for each");
 }
@@ -113,6 +117,13 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
           "that folder (~/.cache/etendue/textures)")
       ->type_name("DIR");
   command.add_flag_function(
+      "--alpha", [&o](int64_t) { o.alpha = true; },
+      "keep what the picture shows without what is behind everything: .png files get an alpha, .exr files the layer "
+      "foreground");
+  command.add_flag_function(
+      "--id-layers", [&o](int64_t) { o.ids = true; },
+      "add which object and which material each pixel shows: layers id.object and id.material, named in the metadata");
+  command.add_flag_function(
       "--no-features", [&o](int64_t) { o.features = false; }, "leave out albedo, normal, depth and coverage");
 }
 
@@ -140,6 +151,13 @@ SceneDescription load_scene(const std::string& path, Diagnostics& diagnostics) {
                                 foreign.empty() ? "" : fmt::format(" that is read; it is that of {}", foreign)),
                     "valid: .pbrt (pbrt-v4), and .obj, .off, .ply for a single mesh");
   return {};
+}
+
+SceneDescription load_scene(const SceneArguments& args, Diagnostics& diagnostics) {
+  SceneDescription description = load_scene(args.scene, diagnostics);
+  if (!args.camera.empty())
+    static_cast<ViewDescription&>(description) = read_pbrt_view(args.camera, description, diagnostics);
+  return description;
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) { tell("{}", diagnostics.format_all()); }

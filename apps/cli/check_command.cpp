@@ -16,7 +16,7 @@ void add_check(CLI::App& app, Run& run) {
   command->callback([args, &run] {
     run = [args]() -> int {
       Diagnostics diagnostics(args->allow_unsupported);
-      const auto prepared = prepare_render(load_scene(args->scene, diagnostics), args->overrides, diagnostics);
+      const auto prepared = prepare_render(load_scene(*args, diagnostics), args->overrides, diagnostics);
       print_diagnostics(diagnostics);
       if (!prepared) return kBadInput;
       answer("{}: no problems\n", args->scene);

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "io/file.h"
 #include "io/pending_file.h"
+#include "loaded_scene.h"
 #include "printing.h"
 #include "render/duration.h"
 #include "render/interrupt.h"
@@ -17,13 +18,15 @@
 #include "render/provenance.h"
 #include "render/session.h"
 #include "scene/scene.h"
+#include "views.h"
 #include "watching.h"
 
 namespace etd::cli {
 namespace {
 
 struct Arguments : SceneArguments {
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, cameras;
+  std::vector<View> views;  // what these two make
   std::string stats;
   bool replicate_layers = false;
   bool strict = false;
@@ -40,6 +43,8 @@ constexpr const char* kExamples =
     "  etendue render box.pbrt --time 1m30s                 as good as it gets in that time\n"
     "  etendue render box.pbrt --error 0.02 --time 1h       until the error is 2 %, one hour at most\n"
     "  etendue render box.pbrt --preview now.png            a picture to look at while it renders\n"
+    "  etendue render box.pbrt --camera left.pbrt -o left.exr --camera right.pbrt -o right.exr\n"
+    "                                                       two pictures of a scene that is read once\n"
     "\n"
     "--time and --error put the scene's number of samples out of force; --spp still holds. The error is tested\n"
     "at 32, 64, 128 ... samples per pixel, and a render that tests it is labelled biased in its metadata.\n"
@@ -51,7 +56,9 @@ int fail(const std::string& message) {
 }
 
 // Why one of these cannot be written; empty when all can. Found before any work is done.
-std::string output_problem(const std::vector<std::string>& outputs, const Arguments& args) {
+std::string output_problem(const Arguments& args, const std::vector<View>& views) {
+  std::vector<std::string> outputs;
+  for (const View& view : views) outputs.insert(outputs.end(), view.outputs.begin(), view.outputs.end());
   const auto place = [](const std::string& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path)));
   };
@@ -65,16 +72,11 @@ std::string output_problem(const std::vector<std::string>& outputs, const Argume
   if (!args.watch.preview.empty()) images.push_back(args.watch.preview);
   for (const std::string& path : images)
     if (std::string problem = check(path, check_output_path(path)); !problem.empty()) return problem;
+  if (args.overrides.alpha.value_or(false))
+    for (const std::string& path : outputs)
+      if (const std::string problem = check_alpha_path(path); !problem.empty())
+        return fmt::format("cannot write {} with --alpha: {}", path, problem);
   return args.stats.empty() ? std::string() : check(args.stats, place_problem(args.stats));
-}
-
-// Where the picture goes that the scene's film names, with either kind of slash: there if its folder exists, seen from
-// the current one, and otherwise into the current one.
-std::string output_of_film(std::string filename) {
-  std::replace(filename.begin(), filename.end(), '\\', '/');
-  const std::filesystem::path wanted = filename;
-  std::error_code ignored;
-  return std::filesystem::is_directory(wanted.parent_path(), ignored) ? filename : wanted.filename().string();
 }
 
 // Why there are not all the samples that were asked for.
@@ -87,10 +89,10 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
                                                      : "error reached");
 }
 
-void print_summary(const PreparedRender& prepared, const RenderResult& result) {
+void print_summary(const PreparedRender& prepared, const RenderResult& result, const std::string& label) {
   const RenderSettings& s = prepared.settings;
-  report("{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", s.crop.width(), s.crop.height(), result.spp,
-         result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
+  report("{}{}{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", label, label.empty() ? "" : "  ", s.crop.width(),
+         s.crop.height(), result.spp, result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
          short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
          error_text(result.error));
 }
@@ -110,68 +112,112 @@ void report_invalid_samples(const PreparedRender& prepared, const RenderResult& 
       invalid.total(), result.rays.camera, invalid_text(invalid), replay_command(prepared, result, *invalid.first));
 }
 
-// Writes everything even when one file fails, since an image costs more than a message.
-bool write_all(const Arguments& args, const std::vector<std::string>& outputs, const RowImage& image,
-               RenderStats stats) {
-  bool ok = true;
-  const auto note = [&ok](const std::string& path, const std::string& problem) {
-    ok = ok && problem.empty();
+// What has come of the run so far.
+struct Outcome {
+  bool failed = false;   // something could not be written or read
+  bool invalid = false;  // samples
+  size_t rendered = 0;   // views that are done
+  std::vector<RenderStats> stats;
+
+  // Says that a file was written, or what went wrong.
+  void note(const std::string& path, const std::string& problem) {
+    failed = failed || !problem.empty();
     problem.empty() ? report("{}\n", path) : tell("etendue: {}\n", problem);
-  };
-  for (const std::string& path : outputs) note(path, write_output(path, image, args.watch.exposure));
-  stats.peak_bytes = peak_memory_bytes();
-  if (!args.stats.empty()) note(args.stats, write_file(args.stats, stats_json(stats)));
-  return ok;
+  }
+};
+
+// Writes everything even when one file fails, since an image costs more than a message.
+void write_all(const Arguments& args, const View& view, const RowImage& image, Outcome& outcome) {
+  for (const std::string& path : view.outputs) {
+    const bool alpha = args.overrides.alpha.value_or(false);
+    outcome.note(path, write_output(path, image, args.watch.exposure, alpha));
+  }
 }
 
-int render_scene(const Arguments& args) {
-  if (const std::string problem = output_problem(args.outputs, args); !problem.empty()) return fail(problem);
-  Watchers watchers(args.watch);
-  if (const std::string problem = watchers.connect(); !problem.empty()) return fail(problem);
+// One object, or a list of them where there are several pictures.
+void write_stats(const Arguments& args, Outcome& outcome) {
+  if (args.stats.empty() || outcome.stats.empty()) return;
+  std::string text;
+  for (const RenderStats& stats : outcome.stats) text += (text.empty() ? "" : ", ") + stats_json(stats);
+  if (args.views.size() > 1) text = fmt::format("[{}]\n", text);
+  outcome.note(args.stats, write_file(args.stats, text));
+}
 
-  const auto start = std::chrono::steady_clock::now();
-  Diagnostics diagnostics(args.allow_unsupported);
-  std::optional<PreparedRender> prepared;
-  double load_seconds = 0;
-  {
-    const SceneDescription description = load_scene(args.scene, diagnostics);
-    load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    prepared = prepare_render(description, args.overrides, diagnostics);
-  }
-  print_diagnostics(diagnostics);
-  tell_of_refused_threads();
-  if (!prepared) return kBadInput;
-
-  std::vector<std::string> outputs = args.outputs;
-  if (outputs.empty()) {
-    outputs.push_back(output_of_film(prepared->settings.filename));
-    if (const std::string problem = output_problem(outputs, args); !problem.empty()) return fail(problem);
-  }
-
-  const InterruptScope interrupts;
-  RenderObserver& observer = watchers.begin(std::filesystem::path(args.scene).filename().string());
-  const FinishedRender finished = run_render(*prepared, observer, &interrupts.stop());
+// False when it was stopped before there was a picture.
+bool render_view(const Arguments& args, const View& view, const std::string& label, PreparedRender& prepared,
+                 Watchers& watchers, const std::atomic<bool>& stop, Outcome& outcome) {
+  const std::string& shown = label.empty() ? args.scene : view.camera;
+  RenderObserver& observer = watchers.begin(std::filesystem::path(shown).filename().string(), label);
+  const FinishedRender finished = run_render(prepared, observer, &stop);
   watchers.end_progress();
   if (finished.result.empty == 1) {
     tell("etendue: stopped before any pixel was done, so no picture is written\n");
-    return interrupts.exit_code() != 0 ? interrupts.exit_code() : kInternalError;
+    return false;
   }
-  RenderStats stats = finished_stats(*prepared, finished);
-  stats.load_seconds = load_seconds;
-  const bool written = write_all(args, outputs, finished_rows(*prepared, finished, args.replicate_layers), stats);
-  print_summary(*prepared, finished.result);
+  outcome.stats.push_back(finished_stats(prepared, finished));
+  write_all(args, view, finished_rows(prepared, finished, args.replicate_layers), outcome);
+  outcome.stats.back().peak_bytes = peak_memory_bytes();
+  print_summary(prepared, finished.result, label);
   report_empty_pixels(finished.result);
-  report_invalid_samples(*prepared, finished.result);
+  report_invalid_samples(prepared, finished.result);
+  outcome.invalid = outcome.invalid || finished.result.invalid.total() > 0;
+  outcome.failed = outcome.failed || finished.result.stopped_by == StoppedBy::kMemory;
   watchers.end(finished.film);
-  const TextureCache* cache = prepared->scene->textures.cache.get();
-  if (cache && !cache->read_error().empty()) {
-    tell("etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
-         cache->read_error());
-    return kInternalError;
+  const TextureCache* cache = prepared.scene->textures.cache.get();
+  if (!cache || cache->read_error().empty()) return true;
+  tell("etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
+       cache->read_error());
+  outcome.failed = true;
+  return true;
+}
+
+// Renders one view after the other, until all are done or somebody stops it. False when there are errors.
+bool render_views(const Arguments& args, std::vector<View>& views, LoadedScene& scene, Watchers& watchers,
+                  const std::atomic<bool>& stop, Outcome& outcome) {
+  for (; outcome.rendered < views.size() && !(stop && outcome.rendered > 0); ++outcome.rendered) {
+    const size_t i = outcome.rendered;
+    const std::string name = std::filesystem::path(views[i].camera).filename().string();
+    const std::string label = views.size() < 2 ? "" : fmt::format("{}/{} {}", i + 1, views.size(), name);
+    try {
+      std::optional<PreparedRender> prepared = scene.prepare(i);
+      if (i == 0) tell_of_refused_threads();
+      if (!prepared) return false;
+      if (stop && i > 0) break;
+      name_output(*prepared, views[i]);
+      if (const std::string problem = i == 0 ? output_problem(args, views) : ""; !problem.empty())
+        return fail(problem), false;
+      if (!render_view(args, views[i], label, *prepared, watchers, stop, outcome)) break;
+      outcome.stats.back().load_seconds = i == 0 ? scene.seconds() : 0;
+    } catch (const std::exception& e) {
+      if (views.size() < 2) throw;
+      const bool memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
+      tell("etendue: {}: {}\n", label, memory ? "out of memory" : e.what());
+      outcome.failed = true;
+    }
   }
-  if (!written || finished.result.stopped_by == StoppedBy::kMemory) return kInternalError;
+  return true;
+}
+
+int render_scene(const Arguments& args) {
+  if (const std::string problem = output_problem(args, args.views); !problem.empty()) return fail(problem);
+  Watchers watchers(args.watch);
+  if (const std::string problem = watchers.connect(); !problem.empty()) return fail(problem);
+
+  LoadedScene scene(args, args.views);
+  std::vector<View> views = args.views;
+  if (views.size() > 1) scene.check_views(views);
+  const InterruptScope interrupts;
+  Outcome outcome;
+  const bool sound = render_views(args, views, scene, watchers, interrupts.stop(), outcome);
+  const bool all = outcome.rendered == views.size();
+  if (!all && views.size() > 1 && (sound || outcome.rendered > 0))
+    tell("etendue: not rendered: {}\n", outputs_text(views, outcome.rendered));
+  write_stats(args, outcome);
+  if (!sound) return kBadInput;
+  if (outcome.failed) return kInternalError;
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
-  return args.strict && finished.result.invalid.total() > 0 ? kInvalidSamples : kOk;
+  if (!all) return kInternalError;
+  return args.strict && outcome.invalid ? kInvalidSamples : kOk;
 }
 
 }  // namespace
@@ -180,13 +226,23 @@ void add_render(CLI::App& app, Run& run) {
   auto args = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("render", "Render a scene to image files.");
   add_scene_options(*command, args);
-  command
-      ->add_option(
-          "-o,--output", args->outputs,
-          "where the picture goes, several times if wanted: .exr holds all layers; .png, .jpg, .hdr and .pfm "
-          "the picture (default: what the scene's film names, in the current folder if the film's own does not exist)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  command->remove_option(command->get_option("--camera"));
+  CLI::Option* camera =
+      command
+          ->add_option("--camera", args->cameras,
+                       "look at the scene as this file says: a .pbrt file, of which what stands before WorldBegin "
+                       "counts; several times for several pictures, each with the outputs behind it")
+          ->type_name("FILE")
+          ->allow_extra_args(false);
+  CLI::Option* output =
+      command
+          ->add_option(
+              "-o,--output", args->outputs,
+              "where the picture goes, several times if wanted: .exr holds all layers; .png, .jpg, .hdr and .pfm "
+              "the picture (default: what the scene's film names, in the current folder if the film's own does not "
+              "exist)")
+          ->type_name("FILE")
+          ->allow_extra_args(false);
   add_override_options(*command, args);
   command
       ->add_option_function<std::string>(
@@ -229,7 +285,10 @@ void add_render(CLI::App& app, Run& run) {
                     "exit with 3 when a sample was NaN, infinite or negative; the image is written all the same");
   command->add_flag("--quiet", args->watch.quiet, "no progress");
   command->footer(kExamples);
-  command->callback([args, &run] { run = [args] { return render_scene(*args); }; });
+  command->callback([args, &run, command, camera, output] {
+    args->views = pair_views(*command, camera, args->cameras, output, args->outputs);
+    run = [args] { return render_scene(*args); };
+  });
 }
 
 }  // namespace etd::cli

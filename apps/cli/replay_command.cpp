@@ -86,7 +86,7 @@ Task make_task(const Arguments& args) {
   if (!task.image)
     task.error = fmt::format(
         "{}: its metadata do not say how etendue rendered it, so its samples cannot be drawn again", args.scene);
-  else if (!sample_options(args.overrides).empty() || args.allow_unsupported)
+  else if (!sample_options(args.overrides).empty() || args.allow_unsupported || !args.camera.empty())
     task.error = "an image knows the options it was rendered with: others would draw other samples";
   if (!task.error.empty()) return task;
   const std::string scene =
@@ -169,7 +169,7 @@ int replay(const Arguments& args) {
   if (!task.error.empty()) return fail(task.error);
 
   Diagnostics diagnostics(task.scene.allow_unsupported);
-  const auto prepared = prepare_render(load_scene(task.scene.scene, diagnostics), task.scene.overrides, diagnostics);
+  const auto prepared = prepare_render(load_scene(task.scene, diagnostics), task.scene.overrides, diagnostics);
   print_diagnostics(diagnostics);
   if (!prepared) return kBadInput;
   if (task.image && task.image->scene_hash != prepared->scene_hash)

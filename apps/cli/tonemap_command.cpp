@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "io/cut_out.h"
 #include "io/picture.h"
 #include "printing.h"
 #include "render/tonemap.h"
@@ -17,6 +18,7 @@ namespace {
 struct Arguments {
   std::string input, output, layer, white_balance;
   double exposure = 0;
+  bool alpha = false;
   std::string curve = "srgb";
 };
 
@@ -25,7 +27,8 @@ constexpr const char* kExamples =
     "  etendue tonemap box.exr box.png --exposure 1.5           one and a half stops brighter\n"
     "  etendue tonemap box.exr box.jpg --operator filmic        highlights that roll off instead of clipping\n"
     "  etendue tonemap box.exr box.png --white-balance 3200     lamps of 3200 K become white\n"
-    "  etendue tonemap box.exr indirect.png --layer indirect    one layer of the render\n";
+    "  etendue tonemap box.exr indirect.png --layer indirect    one layer of the render\n"
+    "  etendue tonemap box.exr cut.png --alpha                  nothing but what surfaces show (render --alpha)\n";
 
 int fail(const std::string& message) {
   tell("etendue: {}\n", message);
@@ -55,20 +58,34 @@ int tonemap(const Arguments& args) {
     return fail(fmt::format("{}: a picture for the eye ends in .png, .jpg or .jpeg", args.output));
   if (const std::string problem = check_output_path(args.output); !problem.empty())
     return fail(fmt::format("cannot write {}: {}", args.output, problem));
+  if (args.alpha) {
+    if (const std::string problem = check_alpha_path(args.output); !problem.empty())
+      return fail(fmt::format("cannot write {} with --alpha: {}", args.output, problem));
+    if (!args.layer.empty()) return fail("--alpha is that of the picture: a layer has none of its own");
+  }
 
   const LayersResult read = read_any_layers(args.input);
   if (!read.image) return fail(fmt::format("{}: {}", args.input, read.error));
-  LayerResult picture = layer_rgb(*read.image, args.layer);
+  CutOut picture;
+  if (args.alpha) {
+    picture = cut_out(*read.image);
+  } else {
+    LayerResult layer = layer_rgb(*read.image, args.layer);
+    picture.rgb = std::move(layer.rgb), picture.error = std::move(layer.error);
+  }
   if (!picture.error.empty()) return fail(fmt::format("{}: {}", args.input, picture.error));
+  if (!picture.note.empty()) tell("etendue: note: {}: {}\n", args.input, picture.note);
   ToneMapping mapping;
   mapping.exposure = args.exposure;
   mapping.curve = args.curve == "filmic" ? ToneOperator::kFilmic : ToneOperator::kSrgb;
   if (const std::string problem = set_balance(args.white_balance, picture.rgb, mapping); !problem.empty())
     return fail(problem);
 
+  if (args.alpha) divide_by_alpha(picture);
   if (const size_t bad = tone_map(picture.rgb, mapping); bad > 0)
     tell("etendue: warning: {} of the pixels are not numbers; they are black\n", bad);
-  if (const std::string problem = write_rgb(args.output, read.image->width, read.image->height, picture.rgb);
+  if (const std::string problem =
+          write_rgb(args.output, read.image->width, read.image->height, picture.rgb, 0, picture.alpha);
       !problem.empty()) {
     tell("etendue: {}\n", problem);
     return kInternalError;
@@ -101,6 +118,7 @@ void add_tonemap(CLI::App& app, Run& run) {
       ->type_name("K");
   command->add_option("--layer", args->layer, "direct, indirect, emission, albedo, stderr ... instead of the picture")
       ->type_name("NAME");
+  command->add_flag("--alpha", args->alpha, "write a .png of what covers each pixel, with its alpha");
   command->footer(kExamples);
   command->callback([args, &run] { run = [args] { return tonemap(*args); }; });
 }

@@ -97,7 +97,7 @@ int verify_user_scene(const VerifySceneArguments& args) {
   options.threads = o.threads.value_or(0);
   options.set = o.set;
   Diagnostics diagnostics(args.scene->allow_unsupported);
-  const SceneDescription description = load_scene(args.scene->scene, diagnostics);
+  const SceneDescription description = load_scene(*args.scene, diagnostics);
   const InterruptScope interrupts;
   TaskBar bar(args.quiet);
   const auto v = verify_scene(
@@ -146,7 +146,8 @@ CLI::App* add_scene_command(CLI::App& command, const std::shared_ptr<VerifyScene
   CLI::App* scene = command.add_subcommand("scene", "Render a scene by every estimator that applies: do they agree?");
   add_scene_options(*scene, args->scene);
   add_override_options(*scene, args->scene);
-  for (const char* name : {"--crop", "--replicates", "--sampler", "--mode", "--components", "--no-features"})
+  for (const char* name :
+       {"--crop", "--replicates", "--sampler", "--mode", "--components", "--alpha", "--id-layers", "--no-features"})
     scene->remove_option(scene->get_option(name));
   scene->get_option("--size")->description("resolution in pixels (the scene's, until no side is over 64)");
   scene->get_option("--spp")->description("samples per pixel of each estimator (256)");

@@ -34,9 +34,12 @@ void Watchers::add_stream(FilmStream::Receiver receiver, std::chrono::millisecon
   observers_.add(*streams_.back());
 }
 
-RenderObserver& Watchers::begin(const std::string& name) {
+RenderObserver& Watchers::begin(const std::string& name, const std::string& label) {
+  observers_ = ObserverList();
+  streams_.clear();
+  if (viewer_) viewer_->take_time();
   if (!options_.quiet) {
-    printer_ = std::make_unique<ProgressPrinter>(stderr, isatty(STDERR_FILENO) != 0);
+    printer_ = std::make_unique<ProgressPrinter>(stderr, isatty(STDERR_FILENO) != 0, label);
     observers_.add(*printer_);
   }
   if (!options_.preview.empty())

@@ -26,8 +26,9 @@ class Watchers {
 
   // Connects to the viewer. Returns what went wrong, or an empty string.
   std::string connect();
-  // From now on everything is shown; `name` is what the viewer calls the image. Call once, when rendering begins.
-  RenderObserver& begin(const std::string& name);
+  // From now on everything is shown of a render that begins; `name` is what the viewer calls the image, and `label`,
+  // if there is one, what its progress begins with.
+  RenderObserver& begin(const std::string& name, const std::string& label = {});
   // Clears the progress display, so that other lines can follow.
   void end_progress();
   // Shows the final image, and waits until everybody has it.

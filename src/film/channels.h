@@ -1,5 +1,4 @@
-// The order in which a pixel's sums lie in the film's memory: the one place that knows it. Features come last, so that
-// a film without them simply stops earlier.
+// The order in which a pixel's sums lie in the film's memory: the one place that knows it.
 #pragma once
 
 #include "film/film.h"
@@ -9,9 +8,11 @@ namespace etd {
 inline constexpr size_t kRadianceChannels = 15;  // emission, direct, indirect, squares, count, rays
 inline constexpr size_t kFeatureChannels = 8;    // albedo, normal, depth, coverage
 inline constexpr size_t kPositionChannels = 3;
+inline constexpr size_t kAlphaChannels = 4;  // emission of surfaces, alpha
 
 inline size_t film_channels(const FilmSettings& s) {
-  return kRadianceChannels + (s.features ? kFeatureChannels + (s.positions ? kPositionChannels : 0) : 0);
+  return kRadianceChannels + (s.features ? kFeatureChannels + (s.positions ? kPositionChannels : 0) : 0) +
+         (s.alpha ? kAlphaChannels : 0);
 }
 
 // Calls f with a reference to every sum, in the order of memory.
@@ -23,13 +24,17 @@ void for_each_channel(Sums& s, const FilmSettings& kept, F&& f) {
   for (auto& v : s.squares) f(v);
   f(s.count);
   f(s.rays);
-  if (!kept.features) return;
-  for (auto& v : s.albedo) f(v);
-  for (auto& v : s.normal) f(v);
-  f(s.depth);
-  f(s.coverage);
-  if (!kept.positions) return;
-  for (auto& v : s.position) f(v);
+  if (kept.features) {
+    for (auto& v : s.albedo) f(v);
+    for (auto& v : s.normal) f(v);
+    f(s.depth);
+    f(s.coverage);
+    if (kept.positions)
+      for (auto& v : s.position) f(v);
+  }
+  if (!kept.alpha) return;
+  for (auto& v : s.surface_emission) f(v);
+  f(s.alpha);
 }
 
 }  // namespace etd

@@ -28,7 +28,8 @@ std::array<double, 4> spread_of_replicates(const std::vector<std::array<double, 
 Film::Film(const FilmSettings& settings)
     : settings_(settings),
       sums_(pixel_count(settings.crop) * settings.replicates * film_channels(settings), 0.0),
-      strongest_(pixel_count(settings.crop)) {
+      strongest_(pixel_count(settings.crop)),
+      ids_(settings.ids ? pixel_count(settings.crop) : 0) {
   const PixelBounds& c = settings_.crop;
   assert(settings_.replicates > 0);
   assert(c.empty() || (c.x0 >= 0 && c.y0 >= 0 && c.x1 <= settings_.width && c.y1 <= settings_.height));
@@ -94,7 +95,8 @@ std::array<double, 4> Film::standard_error(int x, int y) const {
 size_t Film::bytes() const { return bytes_for(settings_); }
 
 size_t Film::bytes_for(const FilmSettings& s) {
-  return pixel_count(s.crop) * (s.replicates * film_channels(s) * sizeof(double) + sizeof(StrongestSample));
+  return pixel_count(s.crop) *
+         (s.replicates * film_channels(s) * sizeof(double) + sizeof(StrongestSample) + (s.ids ? sizeof(PixelIds) : 0));
 }
 
 }  // namespace etd

@@ -21,6 +21,8 @@ struct FilmSettings {
   uint32_t replicates = 2;
   bool features = true;       // albedo, normal, depth, coverage
   bool positions = false;     // beside the features, if there are any
+  bool alpha = false;         // and the light of what it covers
+  bool ids = false;           // of objects and materials
   Transform feature_space{};  // from the recentred world to the space of the layers of normals and positions
   Sensor sensor{};            // through which samples go before they are added
 };
@@ -36,6 +38,9 @@ class Film {
   // Remembers the candidate if the pixel has none that is as strong.
   void offer(int x, int y, const StrongestSample& candidate) { strongest_[pixel(x, y)].offer(candidate); }
   const StrongestSample& strongest(int x, int y) const { return strongest_[pixel(x, y)]; }
+  // Remembers the ids if the pixel has none of a sample that is as near to its centre; only of a film with ids.
+  void offer(int x, int y, const PixelIds& candidate) { ids_[pixel(x, y)].offer(candidate); }
+  const SurfaceIds& ids(int x, int y) const { return ids_[pixel(x, y)].ids; }
   // What has been accumulated so far for a pixel and replicate.
   PixelSums sums(int x, int y, uint32_t replicate) const;
   // All replicates folded in their order.
@@ -55,6 +60,7 @@ class Film {
   FilmSettings settings_;
   std::vector<double> sums_;  // [pixel][replicate][channel]
   std::vector<StrongestSample> strongest_;
+  std::vector<PixelIds> ids_;  // empty without ids
 };
 
 }  // namespace etd

@@ -9,6 +9,7 @@ double PixelSums::add(const PixelSample& s) {
     const int lane = static_cast<int>(i);
     const double e = w * s.emission[lane], d = w * s.direct[lane], n = w * s.indirect[lane];
     emission[i] += e;
+    if (s.alpha > 0) surface_emission[i] += e;
     direct[i] += d;
     indirect[i] += n;
     albedo[i] += w * s.albedo[lane];
@@ -20,6 +21,7 @@ double PixelSums::add(const PixelSample& s) {
   for (size_t i = 0; i < 4; ++i) squares[i] += radiance[i] * radiance[i];
   depth += w * s.depth;
   coverage += w * s.coverage;
+  alpha += w * s.alpha;
   count += 1;
   rays += static_cast<double>(s.rays.total());
   return radiance[3];
@@ -28,6 +30,7 @@ double PixelSums::add(const PixelSample& s) {
 PixelSums& PixelSums::operator+=(const PixelSums& b) {
   for (size_t i = 0; i < 3; ++i) {
     emission[i] += b.emission[i];
+    surface_emission[i] += b.surface_emission[i];
     direct[i] += b.direct[i];
     indirect[i] += b.indirect[i];
     albedo[i] += b.albedo[i];
@@ -37,6 +40,7 @@ PixelSums& PixelSums::operator+=(const PixelSums& b) {
   for (size_t i = 0; i < 4; ++i) squares[i] += b.squares[i];
   depth += b.depth;
   coverage += b.coverage;
+  alpha += b.alpha;
   count += b.count;
   rays += b.rays;
   return *this;

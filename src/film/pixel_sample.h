@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/vec.h"
+#include "film/pixel_ids.h"
 #include "spectrum/spectrum.h"
 
 namespace etd {
@@ -24,10 +25,13 @@ struct PixelSample {
   float weight = 1;  // of the pixel filter, on everything; may be negative
   Spectrum emission, direct, indirect;
   Spectrum albedo;
-  Vec3 normal;         // shading normal in world space on the viewer's side
-  Vec3 position;       // of that vertex, in the recentred world
-  float depth = 0;     // path length to it, in metres
-  float coverage = 0;  // 1 when such a vertex exists
+  Vec3 normal;          // shading normal in world space on the viewer's side
+  Vec3 position;        // of that vertex, in the recentred world
+  float depth = 0;      // path length to it, in metres
+  float coverage = 0;   // 1 when such a vertex exists
+  float alpha = 0;      // 1 when the camera ray met a surface
+  SurfaceIds ids;       // of that surface
+  float distance2 = 0;  // of the place on the film from the centre of the pixel, in pixels, squared
   RayCounts rays;
 };
 
@@ -37,6 +41,8 @@ struct PixelSums {
   std::array<double, 4> squares{};  // of the samples' total R, G, B and luminance Y
   std::array<double, 3> albedo{}, normal{}, position{};
   double depth = 0, coverage = 0;
+  std::array<double, 3> surface_emission{};  // the part of the emission that surfaces emit, not what is behind them all
+  double alpha = 0;
   double count = 0, rays = 0;
 
   // Returns the luminance of the sample as it was added: with the weight.

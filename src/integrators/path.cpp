@@ -151,6 +151,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   PixelSample out;
   const FilterSample film = scene_.filter.sample(sampler.get_2d());
   out.weight = film.weight;
+  out.distance2 = sqr(film.offset.x) + sqr(film.offset.y);
   const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
                         sampler.get_2d(),
                         scene_.moves ? sampler.get_1d() : 0.0f};
@@ -200,6 +201,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     const SurfacePoint& point = surface.point;
     const Vec3 wo = -ray.d;
     path_length += hit.t;
+    if (depth == 0) out.alpha = 1.0f, out.ids = scene_.ids_of(hit);
 
     // Light that the vertex emits.
     if (surface.light != kNoId) add_emission(depth, surface.light, &point);

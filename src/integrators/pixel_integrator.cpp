@@ -48,11 +48,13 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCoun
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       StrongestSample strongest;
+      PixelIds ids;
       for (uint32_t replicate = 0; replicate < context_.replicates; ++replicate) {
         PixelSums sums;
         for (uint32_t index = pass.begin; index < pass.end; ++index) {
           PixelSample s = sample(x, y, replicate, index);
           const uint32_t number = index * context_.replicates + replicate;
+          ids.offer({s.distance2, number, s.ids});
           admit({x, y, number}, film.settings().sensor, s, counts.invalid);
           strongest.offer({static_cast<float>(sums.add(s)), number});
           counts.rays += s.rays;
@@ -60,6 +62,7 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCoun
         film.add(x, y, replicate, sums);
       }
       film.offer(x, y, strongest);
+      if (film.settings().ids) film.offer(x, y, ids);
     }
 }
 

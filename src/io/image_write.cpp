@@ -61,10 +61,10 @@ class FileProxy : public OIIO::Filesystem::IOProxy {
   int64_t end_ = 0;
 };
 
-// Encodes rows strip by strip; `value` makes what is stored out of each of their floats.
+// Encodes rows strip by strip; `value` makes what is stored out of each of their floats and its channel.
 template <class Value>
 std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const RowSource& append_row, Value value) {
-  using Stored = decltype(value(0.0f));
+  using Stored = decltype(value(0.0f, size_t{}));
   constexpr int kStrip = 16;  // as many rows as EXR compresses together
   prepare_oiio();
   try {
@@ -81,7 +81,7 @@ std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const
       rows.clear();
       for (int row = begin; row < end; ++row) append_row(row, rows);
       stored.resize(rows.size());
-      std::transform(rows.begin(), rows.end(), stored.begin(), value);
+      for (size_t i = 0; i < rows.size(); ++i) stored[i] = value(rows[i], i % static_cast<size_t>(spec.nchannels));
       if (!out->write_scanlines(spec.y + begin, spec.y + end, 0, OIIO::BaseTypeFromC<Stored>::value, stored.data()))
         return cannot_write(path, out->geterror());
     }
@@ -138,16 +138,22 @@ void add_metadata(OIIO::ImageSpec& spec, const std::string& name, const Metadata
     spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE), number);
 }
 
-std::string write_8bit(const fs::path& path, int width, int height, const RowSource& rgb, float exposure) {
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+std::string write_8bit(const fs::path& path, int width, int height, const RowSource& rgb, float exposure, bool alpha) {
+  OIIO::ImageSpec spec(width, height, alpha ? 4 : 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  if (alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (ending_of(path) != ".png") {
     spec.attribute("Compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");
   }
-  return encode_rows(path, spec, rgb,
-                     [scale = std::exp2(exposure)](float v) -> uint8_t { return linear_to_srgb8(v * scale); });
+  return encode_rows(path, spec, rgb, [scale = std::exp2(exposure)](float v, size_t channel) -> uint8_t {
+    if (channel < 3) return linear_to_srgb8(v * scale);
+    return v > 0 ? static_cast<uint8_t>(255.0f * std::min(v, 1.0f) + 0.5f) : uint8_t{0};
+  });
 }
+
+// Ids are integers that 16 bits do not hold.
+bool is_id(std::string_view channel) { return channel.substr(0, 3) == "id."; }
 
 // Finite values stay finite as 16-bit floats.
 float within_half(float v) {
@@ -225,8 +231,11 @@ std::string write_layers(const fs::path& path, const RowImage& image) {
   spec.channelnames = image.channels;
   spec.attribute("compression", "zip");
   for (const auto& [name, value] : image.metadata) add_metadata(spec, name, value);
-  if (image.half) return encode_rows(path, spec, image.append_row, within_half);
-  return encode_rows(path, spec, image.append_row, [](float v) { return v; });
+  if (!image.half) return encode_rows(path, spec, image.append_row, [](float v, size_t) { return v; });
+  for (const std::string& channel : image.channels)
+    spec.channelformats.emplace_back(is_id(channel) ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
+  return encode_rows(path, spec, image.append_row,
+                     [&image](float v, size_t channel) { return is_id(image.channels[channel]) ? v : within_half(v); });
 }
 
 std::string write_layers(const fs::path& path, const LayeredImage& image) {
@@ -236,24 +245,33 @@ std::string write_layers(const fs::path& path, const LayeredImage& image) {
   return write_layers(path, rows_of(image));
 }
 
-std::string write_rgb(const fs::path& path, int width, int height, const RowSource& rgb, float exposure) {
+std::string write_rgb(const fs::path& path, int width, int height, const RowSource& rgb, float exposure, bool alpha) {
   const std::string ending = ending_of(path);
-  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return write_8bit(path, width, height, rgb, exposure);
+  if (const std::string problem = alpha ? check_alpha_path(path) : ""; !problem.empty())
+    return cannot_write(path, problem);
+  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg")
+    return write_8bit(path, width, height, rgb, exposure, alpha);
   if (ending == ".hdr")
-    return encode_rows(path, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT), rgb, within_shared_exponent);
+    return encode_rows(path, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT), rgb,
+                       [](float v, size_t) { return within_shared_exponent(v); });
   if (ending == ".pfm") return write_pfm(path, width, height, rgb);
   return cannot_write(path, std::string(kUnknownEnding));
 }
 
-std::string write_rgb(const fs::path& path, int width, int height, std::span<const float> rgb, float exposure) {
-  if (width < 1 || height < 1 || rgb.size() != 3 * texel_count(width, height))
+std::string write_rgb(const fs::path& path, int width, int height, std::span<const float> rgb, float exposure,
+                      std::span<const float> alpha) {
+  const size_t texels = width < 1 || height < 1 ? 0 : texel_count(width, height);
+  if (texels == 0 || rgb.size() != 3 * texels || (!alpha.empty() && alpha.size() != texels))
     return cannot_write(path, fmt::format("{} values do not make {} x {} RGB pixels", rgb.size(), width, height));
-  const size_t row_size = 3 * static_cast<size_t>(width);
   const auto append = [&](int row, std::vector<float>& to) {
-    const std::span<const float> values = rgb.subspan(static_cast<size_t>(row) * row_size, row_size);
-    to.insert(to.end(), values.begin(), values.end());
+    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(width);
+    for (size_t i = first; i < first + static_cast<size_t>(width); ++i) {
+      to.insert(to.end(), rgb.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                rgb.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+      if (!alpha.empty()) to.push_back(alpha[i]);
+    }
   };
-  return write_rgb(path, width, height, append, exposure);
+  return write_rgb(path, width, height, append, exposure, !alpha.empty());
 }
 
 std::string check_output_path(const fs::path& path) {
@@ -262,6 +280,12 @@ std::string check_output_path(const fs::path& path) {
   if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings))
     return std::string(kUnknownEnding);
   return place_problem(path);
+}
+
+std::string check_alpha_path(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".png" || ending == ".exr") return {};
+  return fmt::format("{} files have no alpha; .png has it, and .exr holds it as the layer foreground", ending);
 }
 
 bool is_layered_path(const fs::path& path) { return ending_of(path) == ".exr"; }

@@ -53,8 +53,9 @@ RowImage rows_of(const LayeredImage& image);
 LayeredImage all_rows(const RowImage& image);
 
 // Writes an EXR, ZIP compressed. 32-bit floats arrive bit for bit, in any order of the channels; 16-bit ones are
-// rounded, and finite values stay so. Like every function here, it needs memory for a few rows and returns what went
-// wrong ("cannot write NAME: ..."), or an empty string.
+// rounded, and finite values stay so, but channels "id.*" stay 32-bit floats, which hold integers exactly. Like every
+// function here, it needs memory for a few rows and returns what went wrong ("cannot write NAME: ..."), or an empty
+// string.
 std::string write_layers(const std::filesystem::path& path, const RowImage& image);
 std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
 
@@ -68,15 +69,20 @@ LayersResult read_layers(const std::filesystem::path& path);
 
 // Writes linear Rec.709, three floats a pixel, rows from the top. By the path's ending: .png, .jpg and .jpeg hold
 // 8 bits, values times 2^exposure through the sRGB curve, clamped; .hdr (negative values become 0, no other loss of
-// range) and .pfm hold the values themselves, whatever the exposure.
+// range) and .pfm hold the values themselves, whatever the exposure. With `alpha` there are four values a pixel:
+// colours that are not multiplied by it, and alpha, clamped to [0, 1]; of these files only .png holds it.
 std::string write_rgb(const std::filesystem::path& path, int width, int height, const RowSource& rgb,
-                      float exposure = 0);
+                      float exposure = 0, bool alpha = false);
+// The same of an image in memory, with one alpha a pixel or none.
 std::string write_rgb(const std::filesystem::path& path, int width, int height, std::span<const float> rgb,
-                      float exposure = 0);
+                      float exposure = 0, std::span<const float> alpha = {});
 
 // Whether an image could be written there: known ending, folder present and writable. Leaves an existing file as it is
 // and nothing new behind. Returns what is wrong, or an empty string.
 std::string check_output_path(const std::filesystem::path& path);
+
+// Why no picture with alpha can be written there: the format has none. Empty for .png, and for .exr, which has layers.
+std::string check_alpha_path(const std::filesystem::path& path);
 
 // Whether the path's ending names the format that holds layers (.exr).
 bool is_layered_path(const std::filesystem::path& path);

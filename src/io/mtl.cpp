@@ -2,6 +2,7 @@
 // with material files that programs wrote carelessly.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,6 +17,21 @@ namespace {
 
 // Ka is light that comes from nowhere, and there is none; sharpness belongs to a reflection map.
 constexpr std::array<std::string_view, 3> kMeaningless = {"Ka", "map_Ka", "sharpness"};
+
+// The options of maps, and how many words stand behind each.
+struct MapOption {
+  std::string_view name;
+  size_t values;  // of -o, -s and -t at most: as many as are numbers
+};
+constexpr MapOption kMapOptions[] = {{"-blendu", 1}, {"-blendv", 1}, {"-bm", 1},      {"-boost", 1}, {"-cc", 1},
+                                     {"-clamp", 1},  {"-halo", 0},   {"-imfchan", 1}, {"-mm", 2},    {"-o", 3},
+                                     {"-s", 3},      {"-t", 3},      {"-texres", 1},  {"-type", 1}};
+
+const MapOption* find_map_option(std::string_view word) {
+  const auto* found = std::find_if(std::begin(kMapOptions), std::end(kMapOptions),
+                                   [&](const MapOption& option) { return option.name == word; });
+  return found == std::end(kMapOptions) ? nullptr : found;
+}
 
 class MtlReader {
  public:
@@ -66,6 +82,8 @@ class MtlReader {
     if (key == "Pm") return number(m.pm, 0, 1), true;
     if (key == "map_Kd") return map(m.map_kd), true;
     if (key == "map_d") return map(m.map_d), true;
+    if (key == "map_Bump" || key == "map_bump" || key == "bump") return map(m.bump, true), true;
+    if (key == "norm" || key == "map_norm") return map(m.normal), true;
     return false;
   }
 
@@ -93,30 +111,54 @@ class MtlReader {
       note(fmt::format("{} needs three numbers that are not negative", words_[0]));
   }
 
-  // Options, then a file name that may have blanks in it.
-  void map(ObjMap& to) {
+  // Options and a file name that may have blanks in it, in either order: options belong first, and some programs write
+  // them last.
+  void map(ObjMap& to, bool is_bump = false) {
     ObjMap map;
-    size_t at = 1;
-    while (at + 1 < words_.size() && words_[at].size() > 1 && words_[at][0] == '-') {
-      const std::string_view option = words_[at++];
-      if (option == "-clamp") map.clamp = words_[at] == "on";
-      Vec2* const pair = option == "-s" ? &map.scale : option == "-o" ? &map.offset : nullptr;
-      if (pair || option == "-t") {
-        for (int i = 0; i < 3 && at + 1 < words_.size(); ++i, ++at) {
-          const auto value = word_to_number(words_[at]);
-          if (!value) break;
-          if (pair && i < 2) (i == 0 ? pair->x : pair->y) = static_cast<float>(*value);
-        }
-      } else {
-        at += option == "-mm" ? 2 : 1;
-      }
-      if (!pair && option != "-clamp") note(fmt::format("{} {} is not used", words_[0], option));
-    }
-    std::string file = join_words(words_, std::min(at, words_.size()));
+    size_t begin = 1;
+    // A word that only looks like an option can be the name when nothing follows it.
+    const auto is_option = [this](size_t at) {
+      return find_map_option(words_[at]) || (words_[at][0] == '-' && at + 1 < words_.size());
+    };
+    while (begin < words_.size() && is_option(begin)) begin = option(begin, words_.size() - 1, map, is_bump);
+    size_t end = begin;
+    while (end < words_.size() && (end == begin || !find_map_option(words_[end]))) ++end;
+    for (size_t at = end; at < words_.size();) at = option(at, words_.size(), map, is_bump);
+    words_.resize(end);
+    std::string file = join_words(words_, std::min(begin, end));
     std::replace(file.begin(), file.end(), '\\', '/');
     if (file.empty()) return note(fmt::format("{} names no file", words_[0]));
     map.file = folder_ / file;
     to = std::move(map);
+  }
+
+  // Reads the option at a word, whose values end before `end`, and returns where what follows begins.
+  size_t option(size_t at, size_t end, ObjMap& map, bool is_bump) {
+    const std::string_view name = words_[at++];
+    const MapOption* known = find_map_option(name);
+    const bool vector = known && known->values == 3;
+    std::vector<double> numbers;
+    const size_t first = at;
+    for (; at < end && at - first < (known ? known->values : 1); ++at) {
+      const auto value = word_to_number(words_[at]);
+      if (vector && !value) break;
+      if (value) numbers.push_back(*value);
+    }
+    Vec2* const pair = name == "-s" ? &map.scale : name == "-o" ? &map.offset : nullptr;
+    if (pair) {
+      if (!numbers.empty()) pair->x = static_cast<float>(numbers[0]);
+      if (numbers.size() > 1) pair->y = static_cast<float>(numbers[1]);
+    } else if (name == "-clamp") {
+      map.clamp = at > first && words_[first] == "on";
+    } else if (name == "-bm" && is_bump) {
+      if (numbers.size() == 1 && std::isfinite(static_cast<float>(numbers[0])))
+        map.height = numbers[0];
+      else
+        note(fmt::format("{} {} needs a number", words_[0], name));
+    } else {
+      note(fmt::format("{} {} is not used", words_[0], name));
+    }
+    return at;
   }
 
   TextLines lines_;

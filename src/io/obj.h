@@ -17,6 +17,7 @@ struct ObjMap {
   std::filesystem::path file;  // empty: none
   Vec2 scale{1, 1}, offset;    // looked up at offset + scale * uv
   bool clamp = false;          // black outside of the unit square
+  double height = 1;           // of a bump map: that of white over black
 };
 
 struct ObjMaterial {
@@ -31,6 +32,8 @@ struct ObjMaterial {
   std::optional<double> pr;   // roughness and
   double pm = 0;              // metalness of the extension that many programs write
   ObjMap map_kd, map_d;
+  ObjMap bump;    // heights
+  ObjMap normal;  // normals in the frame of u and v, as (n + 1) / 2
 };
 
 // The faces that use one material, all groups and objects together.

@@ -1,4 +1,4 @@
-#include "lights/environment_map.h"
+#include "lights/light_data.h"
 
 #include <fmt/format.h>
 
@@ -127,10 +127,13 @@ Spectrum EnvironmentMap::irradiance_up() const {
   return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
 }
 
-std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder) {
+std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
+                                      const LightData& data) {
   const Param* file = params.given("filename");
   if (!file) return {};
   const std::string& name = file->strings[0];
+  if (data.kept)
+    if (const auto known = data.kept->find(folder / name); known != data.kept->end()) return known->second;
   ImageResult result = read_image(folder / name);
   if (!result.image) {
     params.diagnostics().error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
@@ -147,6 +150,7 @@ std::optional<Image> read_light_image(const ParamReader& params, const std::file
               fmt::format("image \"{}\" can't be a light: its texel ({}, {}) is not finite", name, x, y));
           return {};
         }
+  if (data.kept) data.kept->emplace(folder / name, *result.image);
   return std::move(result.image);
 }
 
@@ -155,7 +159,7 @@ const EnvironmentMap* read_environment(const ParamReader& params, const LightCon
   if (!file) return nullptr;
   const auto [entry, is_new] = context.data.environment_of.try_emplace(context.folder / file->strings[0], nullptr);
   if (entry->second || !is_new) return entry->second;
-  const std::optional<Image> image = read_light_image(params, context.folder);
+  const std::optional<Image> image = read_light_image(params, context.folder, context.data);
   if (!image) return nullptr;
   if (EnvironmentMap::layout_of(image->width(), image->height()))
     return entry->second = &context.data.environments.emplace_back(*image);

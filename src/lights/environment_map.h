@@ -65,7 +65,8 @@ class EnvironmentMap {
 
 // Reads the image of a light's "filename". Reports what keeps it from being one (unreadable, values that are not
 // finite), and then gives nothing.
-std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder);
+std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
+                                      const LightData& data);
 // The same as a map of directions, which context.data keeps, read once for all lights of one file; null on failure.
 const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context);
 

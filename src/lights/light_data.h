@@ -11,6 +11,9 @@
 
 namespace etd {
 
+// Images that lights have read, by file.
+using LightImages = std::map<std::filesystem::path, Image>;
+
 struct LightData {
   std::deque<EnvironmentMap> environments;
   std::deque<PortalMap> portals;
@@ -25,6 +28,7 @@ struct LightData {
     const GridDistribution* texels = nullptr;
   };
   std::map<std::pair<std::filesystem::path, double>, Slide> slide_of;
+  LightImages* kept = nullptr;  // what was read for the same lights before; what is read is added
 
   size_t bytes() const {
     size_t sum = 0;

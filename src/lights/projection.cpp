@@ -20,7 +20,7 @@ std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const
   const auto [entry, is_new] = context.data.slide_of.try_emplace({context.folder / file->strings[0], fov});
   LightData::Slide& slide = entry->second;
   if (is_new)
-    if (std::optional<Image> image = read_light_image(p, context.folder))
+    if (std::optional<Image> image = read_light_image(p, context.folder, context.data))
       slide.image = &context.data.images.emplace_back(std::move(*image));
   if (!slide.image || !axes || flat) return {};
   const double half = std::tan(0.5 * radians(fov));

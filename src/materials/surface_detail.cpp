@@ -9,7 +9,7 @@ std::vector<ParamDecl> SurfaceDetail::params() {
        .default_value = 0.0,
        .doc = "Height of bumps above the surface, in its units: tilts the shading normal, moves nothing."},
       {.name = "normalmap",
-       .type = ParamType::kString,
+       .type = ParamType::kImageTexture,
        .doc = "Image of normals as (n + 1) / 2: red tilts towards growing u, green towards growing v, also where uv "
               "or the surface are mirrored."}};
 }
@@ -18,7 +18,8 @@ SurfaceDetail SurfaceDetail::create(const ParamReader& p, TextureBuilder& b) {
   SurfaceDetail d;
   d.displacement = b.number(p, "displacement");
   if (const Param* file = p.given("normalmap")) {
-    d.normal_map = b.image_texture(*file, "linear", p.diagnostics());
+    d.normal_map = file->kind == ParamKind::kTexture ? b.spectrum(p, "normalmap").texture
+                                                     : b.image_texture(*file, "linear", p.diagnostics());
     if (d.displacement.texture >= 0)
       p.diagnostics().warning(file->loc, "a material with a normal map ignores its \"displacement\"");
   }
@@ -66,6 +67,7 @@ Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const 
   Vec3 n = point.ns;
   if (normal_map >= 0) {
     const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at);
+    if (is_black(rgb)) return plain;  // outside of an image that is not repeated: no normal at all
     // Towards growing u and v. The frame below is right-handed all the same: closures do not tell y from -y.
     const Vec3 local{2.0f * rgb[0] - 1.0f, (2.0f * rgb[1] - 1.0f) * handedness(point), 2.0f * rgb[2] - 1.0f};
     if (!(dot(local, local) > 1e-8f)) return plain;

@@ -38,6 +38,8 @@ std::vector<ParamKind> accepted_kinds(ParamType type) {
       return {ParamKind::kFloat, ParamKind::kTexture};
     case ParamType::kSpectrumTexture:
       return {ParamKind::kRgb, ParamKind::kSpectrum, ParamKind::kBlackbody, ParamKind::kFloat, ParamKind::kTexture};
+    case ParamType::kImageTexture:
+      return {ParamKind::kString, ParamKind::kTexture};
   }
   return {};
 }

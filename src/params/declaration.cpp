@@ -89,6 +89,8 @@ std::string_view type_name(ParamType type) {
       return "float texture";
     case ParamType::kSpectrumTexture:
       return "spectrum texture";
+    case ParamType::kImageTexture:
+      return "string or spectrum texture";
   }
   return "";
 }

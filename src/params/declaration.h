@@ -29,7 +29,7 @@ std::string_view family_name(Family family);  // "shape", "material", "area ligh
 
 // What a parameter accepts. A kFloatTexture takes a float or the name of a float texture; a kSpectrum takes rgb,
 // blackbody, spectrum or one float for all wavelengths; a kSpectrumTexture takes those or the name of a spectrum
-// texture.
+// texture; a kImageTexture takes the name of a file or that of a spectrum texture.
 enum class ParamType : uint8_t {
   kBool,
   kInteger,
@@ -42,7 +42,8 @@ enum class ParamType : uint8_t {
   kNormal,
   kSpectrum,
   kFloatTexture,
-  kSpectrumTexture
+  kSpectrumTexture,
+  kImageTexture
 };
 std::string_view type_name(ParamType type);
 

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "io/cut_out.h"
 #include "render/registry.h"
 #include "render/version.h"
 
@@ -20,12 +21,13 @@ std::vector<std::string> channel_names(const FilmSettings& kept) {
   std::vector<std::string> names = {"R",        "G",        "B",        "emission.R", "emission.G", "emission.B",
                                     "direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B",
                                     "stderr.R", "stderr.G", "stderr.B", "stderr.Y"};
-  if (!kept.features) return names;
-  for (const char* name :
-       {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "coverage.A"})
-    names.emplace_back(name);
-  if (kept.positions)
-    for (const char* name : {"position.X", "position.Y", "position.Z"}) names.emplace_back(name);
+  const auto add = [&names](bool wanted, std::initializer_list<const char*> more) {
+    if (wanted) names.insert(names.end(), more.begin(), more.end());
+  };
+  add(kept.features, {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "coverage.A"});
+  add(kept.features && kept.positions, {"position.X", "position.Y", "position.Z"});
+  add(kept.alpha, {"foreground.R", "foreground.G", "foreground.B", "foreground.A"});
+  add(kept.ids, {"id.object", "id.material"});
   return names;
 }
 
@@ -34,11 +36,17 @@ struct Radiance {
   Rgb picture{}, emission{}, direct{}, indirect{};
 };
 
+Rgb add_up(const Rgb& emission, const Rgb& direct, const Rgb& indirect) {
+  Rgb sum;
+  for (size_t i = 0; i < 3; ++i) sum[i] = (emission[i] + direct[i]) + indirect[i];
+  return sum;
+}
+
 Radiance radiance(const PixelSums& sums) {
   Radiance r{.emission = to_floats(sums.mean(sums.emission)),
              .direct = to_floats(sums.mean(sums.direct)),
              .indirect = to_floats(sums.mean(sums.indirect))};
-  for (size_t i = 0; i < 3; ++i) r.picture[i] = (r.emission[i] + r.direct[i]) + r.indirect[i];
+  r.picture = add_up(r.emission, r.direct, r.indirect);
   return r;
 }
 
@@ -64,14 +72,23 @@ void append_pixel(const Film& film, int x, int y, std::vector<float>& out) {
   for (const Rgb& layer : {r.picture, r.emission, r.direct, r.indirect})
     out.insert(out.end(), layer.begin(), layer.end());
   for (double e : film.standard_error(x, y)) out.push_back(static_cast<float>(e));
-  if (!film.settings().features) return;
-  const Transform& space = film.settings().feature_space;
-  for (const Rgb& layer : {to_floats(sums.mean(sums.albedo)), normal_layer(sums, space)})
-    out.insert(out.end(), layer.begin(), layer.end());
-  for (double v : {sums.depth, sums.coverage}) out.push_back(static_cast<float>(sums.count > 0 ? v / sums.count : 0));
-  if (!film.settings().positions) return;
-  const Rgb position = position_layer(sums, space);
-  out.insert(out.end(), position.begin(), position.end());
+  const FilmSettings& kept = film.settings();
+  const auto add = [&out](const Rgb& layer) { out.insert(out.end(), layer.begin(), layer.end()); };
+  const auto add_mean = [&](double sum) { out.push_back(static_cast<float>(sums.count > 0 ? sum / sums.count : 0)); };
+  if (kept.features) {
+    add(to_floats(sums.mean(sums.albedo)));
+    add(normal_layer(sums, kept.feature_space));
+    add_mean(sums.depth);
+    add_mean(sums.coverage);
+    if (kept.positions) add(position_layer(sums, kept.feature_space));
+  }
+  if (kept.alpha) {
+    add(add_up(to_floats(sums.mean(sums.surface_emission)), r.direct, r.indirect));
+    add_mean(sums.alpha);
+  }
+  if (!kept.ids) return;
+  const SurfaceIds& ids = film.ids(x, y);
+  for (const uint32_t id : {ids.object, ids.material}) out.push_back(static_cast<float>(id));
 }
 
 // The value that a model uses for a parameter: given, or its default.
@@ -133,6 +150,24 @@ ImageHeader header_of(const FilmSettings& settings, std::vector<std::string> cha
   header.full_height = settings.height;
   header.channels = std::move(channels);
   return header;
+}
+
+// What covers each pixel, and how much of it.
+std::string write_cut_out(const std::filesystem::path& path, const RowImage& image, float exposure) {
+  LayeredImage one;
+  static_cast<ImageHeader&>(one) = image;
+  one.height = 1;
+  const auto append_rgba = [&image, &one](int row, std::vector<float>& out) {
+    one.pixels.clear();
+    image.append_row(row, one.pixels);
+    CutOut cut = cut_out(one);
+    divide_by_alpha(cut);
+    for (size_t i = 0; i < cut.alpha.size(); ++i) {
+      for (size_t c = 0; c < 3; ++c) out.push_back(cut.rgb[3 * i + c]);
+      out.push_back(cut.alpha[i]);
+    }
+  };
+  return write_rgb(path, image.width, image.height, append_rgba, exposure, true);
 }
 
 void append(const Rgb& values, std::vector<float>& out) { out.insert(out.end(), values.begin(), values.end()); }
@@ -221,8 +256,9 @@ std::string invalid_text(const InvalidSamples& invalid) {
   return text.empty() ? std::string("none") : text;
 }
 
-std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure) {
+std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure, bool alpha) {
   if (is_layered_path(path)) return write_layers(path, image);
+  if (alpha) return write_cut_out(path, image, static_cast<float>(exposure));
   const std::array<int, 3> picture = {image.find("R"), image.find("G"), image.find("B")};
   std::vector<float> all;
   const auto append_rgb = [&](int row, std::vector<float>& out) {
@@ -234,8 +270,8 @@ std::string write_output(const std::filesystem::path& path, const RowImage& imag
   return write_rgb(path, image.width, image.height, append_rgb, static_cast<float>(exposure));
 }
 
-std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
-  return write_output(path, rows_of(image), exposure);
+std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure, bool alpha) {
+  return write_output(path, rows_of(image), exposure, alpha);
 }
 
 }  // namespace etd

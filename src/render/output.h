@@ -17,7 +17,9 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 // The film as float layers: R, G, B; direct.*, indirect.*, emission.* (radiance); with features albedo.R..B,
 // normal.X..Z, depth.Z (metres), coverage.A, and of a gbuffer position.X..Z; stderr.R, .G, .B, .Y. The picture is
-// (emission + direct) + indirect of the float layers, so that this sum holds bit for bit in the file.
+// (emission + direct) + indirect of the float layers, so that this sum holds bit for bit in the file. With alpha,
+// foreground.R, .G, .B, .A: the light that comes from surfaces, and the share of the samples that met one, by which it
+// is multiplied already; with ids, id.object and id.material.
 // `replicate_layers` adds replicate0.R, .G, .B, replicate1.R ...: the picture as each replicate sees it, whose mean is
 // the picture. The film must outlive the rows.
 RowImage layer_rows(const Film& film, bool replicate_layers = false);
@@ -40,8 +42,10 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
 std::string invalid_text(const InvalidSamples& invalid);
 
 // Writes one file in the format of its ending: all layers, or the picture alone (`exposure` in stops, for formats of
-// limited range). Returns what went wrong ("cannot write NAME: ..."), or an empty string.
-std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure);
-std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure);
+// limited range), with its alpha if that is wanted and the film has kept it. Returns what went wrong ("cannot write
+// NAME: ..."), or an empty string.
+std::string write_output(const std::filesystem::path& path, const RowImage& image, double exposure, bool alpha = false);
+std::string write_output(const std::filesystem::path& path, const LayeredImage& image, double exposure,
+                         bool alpha = false);
 
 }  // namespace etd

@@ -63,15 +63,15 @@ void ProgressPrinter::print_line(const RenderProgress& progress) {
   const int tenths = static_cast<int>(10 * progress.share);
   if (tenths <= tenths_) return;
   tenths_ = tenths;
-  print_or_drop(out_, "{:3} %  {}\n", 10 * tenths, progress_text(progress));
+  print_or_drop(out_, "{}{:3} %  {}\n", label_, 10 * tenths, progress_text(progress));
   std::fflush(out_);
 }
 
 void ProgressPrinter::draw(const RenderProgress& progress) {
   last_ = std::chrono::steady_clock::now();
   const auto filled = static_cast<size_t>(std::lround(kBarWidth * progress.share));
-  const std::string line =
-      fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), progress_text(progress));
+  const std::string line = fmt::format("{}[{}{}] {}", label_, std::string(filled, '#'),
+                                       std::string(kBarWidth - filled, '.'), progress_text(progress));
   print_or_drop(out_, "\r{:<{}}", line, drawn_);
   std::fflush(out_);
   drawn_ = line.size();

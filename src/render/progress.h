@@ -22,7 +22,9 @@ std::string progress_text(const RenderProgress& progress);
 class ProgressPrinter : public RenderObserver {
  public:
   // `redraw`: out is a terminal. Otherwise a line is printed when another tenth of the samples is done.
-  ProgressPrinter(std::FILE* out, bool redraw) : out_(out), redraw_(redraw) {}
+  // `label`, if there is one, says what is rendered.
+  ProgressPrinter(std::FILE* out, bool redraw, std::string label = {})
+      : out_(out), redraw_(redraw), label_(label.empty() ? label : label + "  ") {}
   ~ProgressPrinter() override { finish(); }
 
   void on_progress(const RenderProgress& progress) override;
@@ -36,6 +38,7 @@ class ProgressPrinter : public RenderObserver {
 
   std::FILE* out_;
   bool redraw_;
+  std::string label_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point last_{};
   size_t drawn_ = 0;  // characters of the bar on the terminal

@@ -30,6 +30,10 @@ std::vector<std::string> options(const PreparedRender& prepared, const RenderRes
     overrides.spp = result.unequal ? next.end * s.replicates : result.spp;
   }
   std::vector<std::string> list = sample_options(overrides);
+  if (!prepared.camera_file.empty()) {
+    list.emplace_back("--camera");
+    list.push_back(std::filesystem::absolute(prepared.camera_file).lexically_normal().string());
+  }
   if (prepared.allow_unsupported) list.emplace_back("--allow-unsupported");
   return list;
 }
@@ -63,8 +67,11 @@ std::string strongest_json(const Film& film) {
 
 std::string hash_scene(const SceneDescription& description, const Sources& sources) {
   uint64_t hash = 0;
-  for (int32_t i = 0; i < sources.count(); ++i) hash = hash_bytes(hash, sources.text(i));
-  if (sources.count() == 0) hash = hash_bytes(hash, read_file(description.file).bytes);
+  std::vector<int32_t> read = description.sources;
+  std::erase_if(read, [&sources](int32_t i) { return i >= sources.count(); });  // others have read them
+  if (read.empty() || sources.name(read[0]) != description.file)
+    hash = hash_bytes(hash, read_file(description.file).bytes);
+  for (const int32_t i : read) hash = hash_bytes(hash, sources.text(i));
   return fmt::format("{:016x}", hash);
 }
 

@@ -12,8 +12,8 @@
 
 namespace etd {
 
-// Of what readers have put into `sources`, the scene file and what it includes, or of the file itself if they have put
-// nothing there; meshes and images do not count. 16 hexadecimal digits.
+// Of the texts that scene and view were read from, or of the scene's file itself if that is no text; meshes and images
+// do not count. 16 hexadecimal digits.
 std::string hash_scene(const SceneDescription& description, const Sources& sources);
 
 // The command that shows this sample of an image step by step: the scene as it was named, and the options that matter.

@@ -41,15 +41,19 @@ FilmSettings film_settings(const RenderSettings& s) {
           .replicates = s.replicates,
           .features = s.features,
           .positions = s.positions,
+          .alpha = s.alpha,
+          .ids = s.ids,
           .feature_space = s.feature_space,
           .sensor = s.sensor};
 }
 
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled) {
+                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled,
+                                             SceneFiles* files) {
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
+  prepared.camera_file = description.camera_file;
   prepared.scene_hash = hash_scene(description, diagnostics.sources());
   prepared.overrides = overrides;
   prepared.allow_unsupported = diagnostics.allow_unsupported();
@@ -61,12 +65,16 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   prepared.scene = std::move(compiled);
   if (!prepared.scene)
     prepared.scene = threads.run([&] {
-      return compile(
-          description,
-          {.width = settings.width, .height = settings.height, .spp = settings.spp, .textures = settings.textures},
-          diagnostics);
+      return compile(description,
+                     {.width = settings.width,
+                      .height = settings.height,
+                      .spp = settings.spp,
+                      .textures = settings.textures,
+                      .files = files},
+                     diagnostics);
     });
   if (diagnostics.has_errors() || !prepared.scene) return {};
+  if (settings.ids) prepared.labels = label_ids(prepared.scene->names, diagnostics);
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
                                   .width = settings.width,
@@ -97,9 +105,12 @@ RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& fin
   RowImage image = layer_rows(finished.film, replicate_layers);
   image.half = prepared.settings.half;
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, bias_of(prepared), finished.result);
+  if (!prepared.camera_file.empty())
+    image.metadata.emplace_back("etendue:camera", prepared.camera_file.filename().string());
   const IntegratorTraits traits = prepared.integrator->traits();
   const bool independent = traits.memoryless && !traits.splats;
   image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));
+  if (prepared.settings.ids) add_manifests(prepared.labels, finished.film, image.metadata);
   add_provenance(prepared, finished, image.metadata);
   return image;
 }

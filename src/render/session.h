@@ -12,6 +12,7 @@
 #include "film/film.h"
 #include "integrators/integrator.h"
 #include "render/driver.h"
+#include "render/manifest.h"
 #include "render/output.h"
 #include "render/settings.h"
 #include "render/stats.h"
@@ -19,14 +20,16 @@
 namespace etd {
 
 class Scene;
+struct SceneFiles;
 
 struct PreparedRender {
-  std::filesystem::path scene_file;
+  std::filesystem::path scene_file, camera_file;
   std::string scene_hash;  // hash_scene()
   RenderOverrides overrides;
   bool allow_unsupported = false;
   std::string substitutes;  // all that stand in for what is not supported, separated by "; "
   RenderSettings settings;
+  IdLabels labels;                     // if ids are kept
   std::shared_ptr<const Scene> scene;  // outlives the integrator, which refers to it
   std::unique_ptr<Integrator> integrator;
   double build_seconds = 0;
@@ -37,8 +40,10 @@ FilmSettings film_settings(const RenderSettings& settings);
 // Compiles the scene and makes the integrator. Reports everything that is wrong with description and overrides, also
 // when errors were reported before, and returns nothing if there is any error.
 // `compiled`: the scene that was compiled before from the same description, for an image of the same size.
+// `files`: what was read for the same description with another view, and is read now (scene/compile.h).
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled = {});
+                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled = {},
+                                             SceneFiles* files = nullptr);
 
 struct FinishedRender {
   Film film;

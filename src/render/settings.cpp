@@ -109,6 +109,8 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
 
   settings.replicates = overrides.replicates.value_or(settings.replicates);
   settings.features = overrides.features.value_or(settings.features);
+  settings.alpha = overrides.alpha.value_or(settings.alpha);
+  settings.ids = overrides.ids.value_or(settings.ids);
   settings.threads = overrides.threads.value_or(settings.threads);
   settings.tile_size = overrides.tile_size.value_or(settings.tile_size);
   if (overrides.sampler) {

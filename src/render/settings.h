@@ -28,7 +28,9 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::kSobol;
   ModelUse integrator;  // with the overrides applied
   bool features = true;
-  int threads = 0;  // 0: all cores
+  bool alpha = false;  // and what the picture shows without what is behind everything
+  bool ids = false;    // of objects and materials
+  int threads = 0;     // 0: all cores
   int tile_size = 16;
   TextureMemory textures;
   std::string filename;  // that the scene's film asks for
@@ -47,7 +49,7 @@ struct RenderOverrides {
   std::optional<double> seconds, error;
   std::optional<uint64_t> seed;
   std::optional<int> threads, tile_size;
-  std::optional<bool> features;
+  std::optional<bool> features, alpha, ids;
   std::optional<size_t> texture_memory;
   std::optional<std::filesystem::path> texture_cache;
   std::optional<std::string> sampler;

@@ -36,6 +36,8 @@ class TevViewer {
   // The program wants to end: from now on everything together may take ten seconds, and two without that anything is
   // taken. Called by any thread.
   void hurry();
+  // Another picture begins: there is time again.
+  void take_time() { hurried_at_ = 0; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -124,19 +124,39 @@ void compile_camera(const SceneDescription& description, const CompileOptions& o
   scene.camera.set_motion(shutter.within(description.motion_start, description.motion_end), std::move(motion));
 }
 
+// The images of textures, read now or before.
+void load_images(const CompileOptions& options, TextureBuilder& textures, SceneFiles& files, Scene& scene,
+                 Diagnostics& diagnostics) {
+  TextureTable& table = scene.textures;
+  if (files.images) {
+    table.images = files.images->images;
+    table.cache = files.images->cache;
+    table.cache_limit = files.images->cache_limit;
+    return;
+  }
+  textures.load_images(options.textures, diagnostics);
+  if (!options.files || diagnostics.has_errors()) return;
+  files.images.emplace();
+  files.images->images = table.images;
+  files.images->cache = table.cache;
+  files.images->cache_limit = table.cache_limit;
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
                                Diagnostics& diagnostics) {
   auto scene = std::make_unique<Scene>();
+  SceneFiles own, &files = options.files ? *options.files : own;
+  if (options.files) scene->light_data.kept = &files.light_images;
   TextureBuilder textures(scene->textures, description.folder);
   const TextureOrder build_textures(description, textures, diagnostics);
   for (const TextureDesc& t : description.textures) ++scene->summary.textures[t.use.model];
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
-  compile_geometry(description, material_of, textures, *scene, diagnostics);
+  compile_geometry(description, material_of, textures, files.shapes, *scene, diagnostics);
   textures.recentre(scene->origin);
-  textures.load_images(options.textures, diagnostics);
+  load_images(options, textures, files, *scene, diagnostics);
 
   compile_lights(description, *scene, diagnostics);
 
@@ -150,6 +170,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   if (diagnostics.has_errors()) return nullptr;
 
   warn_if_nothing_shows(*scene, diagnostics);
+  scene->light_data.kept = nullptr;
   scene->light_sampler = LightSampler(scene->lights);
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
   return scene;

@@ -29,10 +29,12 @@ struct Emitter {
 class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of,
-                   const TextureBuilder& textures, Scene& scene, Diagnostics& diagnostics)
+                   const TextureBuilder& textures, std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene,
+                   Diagnostics& diagnostics)
       : description_(description),
         material_of_(material_of),
         textures_(textures),
+        loaded_(loaded),
         scene_(scene),
         diagnostics_(diagnostics) {}
 
@@ -46,6 +48,7 @@ class GeometryCompiler {
     const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
     scene_.origin = {center.x, center.y, center.z};
     reserve();
+    scene_.names.objects = std::move(placed_.objects);
     add_all(placed_.world, scene_.origin, scene_.geometry.groups[0], true);
     add_groups();
     add_lights();
@@ -77,17 +80,21 @@ class GeometryCompiler {
   void load() {
     const auto load_one = [&](const ShapeDesc& s) {
       if (!find_model(Family::kShape, s.use.model) || is_interface(s)) return;
-      if (auto geometry = make_shape(s.use, description_.folder, diagnostics_)) {
-        if (s.area_light >= 0 && geometry->mesh && geometry->mesh->motion_steps > 1)
-          diagnostics_.error(s.use.loc, "an area light can't be on a mesh that deforms",
-                             "\"motionsteps\" is for meshes that do not emit; ActiveTransform moves any shape");
-        loaded_[&s] = std::move(*geometry);
-      }
+      if (loaded_.count(&s) == 0) read(s);
       if (s.use.find("alpha")) load_alpha(s);
     };
     for (const ShapeDesc& s : description_.shapes) load_one(s);
     for (const ObjectDesc& o : description_.objects)
       for (const ShapeDesc& s : o.shapes) load_one(s);
+  }
+
+  void read(const ShapeDesc& s) {
+    auto geometry = make_shape(s.use, description_.folder, diagnostics_);
+    if (!geometry) return;
+    if (s.area_light >= 0 && geometry->mesh && geometry->mesh->motion_steps > 1)
+      diagnostics_.error(s.use.loc, "an area light can't be on a mesh that deforms",
+                         "\"motionsteps\" is for meshes that do not emit; ActiveTransform moves any shape");
+    loaded_[&s] = std::move(*geometry);
   }
 
   void load_alpha(const ShapeDesc& s) {
@@ -193,6 +200,7 @@ class GeometryCompiler {
     binding.material = material_of_[static_cast<size_t>(placed.shape->material + 1)];
     binding.shape = static_cast<uint32_t>(scene_.names.shapes.size());
     scene_.names.shapes.push_back(name_item(Family::kShape, placed.shape->use));
+    if (placed.object >= 0) binding.object = static_cast<uint32_t>(placed.object);
     if (const auto alpha = alpha_.find(placed.shape); alpha != alpha_.end()) {
       scene_.has_holes = binding.has_holes = true;
       binding.alpha = alpha->second;
@@ -259,6 +267,7 @@ class GeometryCompiler {
       scene_.geometry.groups.push_back(std::move(group));
       const double size = local.empty() ? 0.0 : 0.5 * length(local.diagonal());
       for (const PlacedGroup& i : shapes.instances) add_instance(index, recentre.then(i.to_world), origin, size);
+      for (const PlacedGroup& i : shapes.instances) scene_.instance_objects.push_back(static_cast<uint32_t>(i.object));
       for (size_t e = first_emitter; e < emitters_.size(); ++e)
         emitters_[e].motion = scene_.geometry.instances.back().motion;
     }
@@ -301,11 +310,11 @@ class GeometryCompiler {
   const SceneDescription& description_;
   const std::vector<uint32_t>& material_of_;
   const TextureBuilder& textures_;
+  std::map<const ShapeDesc*, ShapeGeometry>& loaded_;
   Scene& scene_;
   Diagnostics& diagnostics_;
   PlacedShapes placed_;
-  std::vector<Bounds3> group_bounds_;  // of placed_.groups, in their own space
-  std::map<const ShapeDesc*, ShapeGeometry> loaded_;
+  std::vector<Bounds3> group_bounds_;              // of placed_.groups, in their own space
   std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
   std::set<const ShapeDesc*> invisible_;           // lights of alpha 0
   std::vector<Emitter> emitters_;
@@ -314,8 +323,9 @@ class GeometryCompiler {
 }  // namespace
 
 void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of,
-                      const TextureBuilder& textures, Scene& scene, Diagnostics& diagnostics) {
-  GeometryCompiler(description, material_of, textures, scene, diagnostics).run();
+                      const TextureBuilder& textures, std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene,
+                      Diagnostics& diagnostics) {
+  GeometryCompiler(description, material_of, textures, loaded, scene, diagnostics).run();
 }
 
 }  // namespace etd

@@ -88,7 +88,7 @@ AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
   const auto [it, is_new] = images_.try_emplace(&use, nullptr);
   if (is_new) {
     reject_radiance_beside_file(p);
-    if (auto image = read_light_image(p, folder_))
+    if (auto image = read_light_image(p, folder_, scene_.light_data))
       it->second = &scene_.light_data.images.emplace_back(std::move(*image));
   }
   e.image = it->second;

@@ -29,6 +29,7 @@ struct ShapeDesc {
   bool reverse_orientation = false;
   int material = -1;    // index into materials; -1: the default diffuse
   int area_light = -1;  // index into area_lights; -1: does not emit
+  int part = 0;         // of one thing that is several shapes, which follow each other
 };
 
 struct InstanceDesc {
@@ -51,9 +52,10 @@ struct ObjectDesc {
   SourceLoc loc;
 };
 
-struct SceneDescription {
-  std::filesystem::path file;    // of the scene, for messages and metadata
-  std::filesystem::path folder;  // that relative file names in it start from
+// How a scene is looked at: what stands before the world, and can be exchanged for that of another file.
+struct ViewDescription {
+  std::filesystem::path camera_file;  // that file; empty: the scene's own
+  std::vector<int32_t> sources;       // the texts that scene and view were read from, as Sources counts them
 
   // The readers fill these with their format's defaults when the file does not say.
   ModelUse camera, film, filter, sampler, integrator;
@@ -61,6 +63,11 @@ struct SceneDescription {
   TransformPair camera_to_world;  // a mirroring one is allowed: handedness lives in the camera
   // When what moves is where its two transforms say, and deforming meshes begin and end; before and after, all rests.
   double motion_start = 0, motion_end = 1;  // s
+};
+
+struct SceneDescription : ViewDescription {
+  std::filesystem::path file;    // of the scene, for messages and metadata
+  std::filesystem::path folder;  // that relative file names in it start from
 
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;

@@ -15,6 +15,11 @@ struct SceneNames {
     SourceLoc loc;
   };
   std::vector<Item> shapes;  // by SurfaceBinding::shape
+  // What a person would take for one thing: a shape of the world, or all that an instance of the world places.
+  struct Object : Item {
+    std::string name;  // of what an instance places
+  };
+  std::vector<Object> objects;  // by SurfaceBinding::object
   std::vector<Item> lights, materials;
   std::vector<std::string> material_names;  // empty: it has none
 };

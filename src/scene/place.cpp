@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/registry.h"
+
 namespace etd {
 
 namespace {
@@ -12,6 +14,7 @@ struct Place {
   Transform local;
   int group = -1;  // of what stands still on this path, once there is something
   SourceLoc loc;
+  int object = -1;  // whose part it is; -1: none yet
 
   Place then(const TransformPair& t, SourceLoc at) const {
     Place inner = *this;
@@ -60,32 +63,45 @@ class Placer {
   // The content of what is in one place.
   void add(const std::vector<ShapeDesc>& shapes, const std::vector<InstanceDesc>& instances, Place place) {
     for (const ShapeDesc& s : shapes) {
+      const int object = place.object >= 0 ? place.object : object_of(s);
       if (s.to_world.is_moving()) {
         Place own = place.then(s.to_world, s.use.loc);
-        add_moving(s, own);
+        add_moving(s, own, object);
       } else if (place.path.moves()) {
-        add_moving(s, place, s.to_world.start);
+        add_moving(s, place, object, s.to_world.start);
       } else {
-        out_.world.push_back({&s, place.local * s.to_world.start});
+        out_.world.push_back({&s, place.local * s.to_world.start, object});
       }
     }
-    for (const InstanceDesc& i : instances)
-      placed_[static_cast<size_t>(i.object)].push_back(place.then(i.to_world, i.loc));
+    for (const InstanceDesc& i : instances) {
+      Place inner = place.then(i.to_world, i.loc);
+      if (inner.object < 0) {
+        inner.object = static_cast<int>(out_.objects.size());
+        out_.objects.push_back({{"instance", i.loc}, description_.objects[static_cast<size_t>(i.object)].name});
+      }
+      placed_[static_cast<size_t>(i.object)].push_back(inner);
+    }
   }
 
-  void add_moving(const ShapeDesc& shape, Place& place, const Transform& to_object = Transform()) {
+  // A shape of the world is an object of its own, or with the shapes before it that it is a part with.
+  int object_of(const ShapeDesc& s) {
+    if (s.part == 0) out_.objects.push_back({name_item(Family::kShape, s.use), {}});
+    return static_cast<int>(out_.objects.size()) - 1;
+  }
+
+  void add_moving(const ShapeDesc& shape, Place& place, int object, const Transform& to_object = Transform()) {
     const Transform size = TransformParts::of(place.path.at(0).matrix()).rest();
     if (place.group < 0) {
       place.group = static_cast<int>(out_.groups.size());
       out_.groups.push_back({{}, {{place.path.then(size.inverse()), place.loc}}, false});
     }
-    out_.groups[static_cast<size_t>(place.group)].shapes.push_back({&shape, size * place.local * to_object});
+    out_.groups[static_cast<size_t>(place.group)].shapes.push_back({&shape, size * place.local * to_object, object});
   }
 
   static std::vector<PlacedGroup> instances(const std::vector<Place>& places, const Transform& t,
                                             const TransformPair& inner) {
     std::vector<PlacedGroup> all;
-    for (const Place& p : places) all.push_back({p.then(t, p.loc).then(inner, p.loc).full(), p.loc});
+    for (const Place& p : places) all.push_back({p.then(t, p.loc).then(inner, p.loc).full(), p.loc, p.object});
     return all;
   }
 

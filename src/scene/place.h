@@ -5,6 +5,7 @@
 
 #include "core/animated_transform.h"
 #include "scene/description.h"
+#include "scene/names.h"
 
 namespace etd {
 
@@ -12,11 +13,13 @@ namespace etd {
 struct PlacedShape {
   const ShapeDesc* shape;
   Transform to_space;
+  int object = -1;  // index into PlacedShapes::objects; -1: that of the instance
 };
 
 struct PlacedGroup {
   TransformPath to_world;
   SourceLoc loc;
+  int object = -1;  // of shapes that have none
 };
 
 // Shapes that instances place in the world.
@@ -30,6 +33,7 @@ struct ShapeGroup {
 struct PlacedShapes {
   std::vector<PlacedShape> world;
   std::vector<ShapeGroup> groups;
+  std::vector<SceneNames::Object> objects;
 };
 
 // Flattens: what one instance places, or what emits, becomes part of the world, or, where it moves, of a group of its

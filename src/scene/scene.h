@@ -10,6 +10,7 @@
 #include "accel/surface.h"
 #include "cameras/footprint.h"
 #include "core/bounds.h"
+#include "film/pixel_ids.h"
 #include "filters/filter.h"
 #include "light_sampling/light_sampler.h"
 #include "lights/light_data.h"
@@ -21,7 +22,8 @@ namespace etd {
 // What a mesh, patch mesh or quadric is made of.
 struct SurfaceBinding {
   uint32_t material = 0;
-  uint32_t shape = 0;  // index into SceneNames::shapes
+  uint32_t shape = 0;       // index into SceneNames::shapes
+  uint32_t object = kNoId;  // index into SceneNames::objects; kNoId: that of the instance
   // The quadric's light, or where the lights of the mesh's triangles or patches start in `face_lights`; kNoId: does not
   // emit.
   uint32_t first_light = kNoId;
@@ -77,11 +79,19 @@ class Scene {
     if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
     return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
   }
+  // Of the object and the material, as SceneNames lists them, counted from 1.
+  SurfaceIds ids_of(const Hit& hit) const {
+    const SurfaceBinding& binding = binding_of(hit);
+    uint32_t object = binding.object;
+    if (object == kNoId && hit.instance < instance_objects.size()) object = instance_objects[hit.instance];
+    return {object + 1, binding.material + 1};
+  }
   size_t geometry_bytes() const;
 
   Geometry geometry;
   // One per mesh, patch mesh and quadric of `geometry`.
   std::vector<SurfaceBinding> mesh_bindings, patch_bindings, quadric_bindings;
+  std::vector<uint32_t> instance_objects;  // by instance of `geometry`: index into SceneNames::objects
   std::vector<Material> materials;
   TextureTable textures;
   std::vector<Light> lights;

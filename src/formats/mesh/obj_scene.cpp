@@ -36,8 +36,13 @@ double coat_index(const ObjMaterial& m) {
 
 class ObjMaterials {
  public:
-  ObjMaterials(const ObjResult& obj, std::filesystem::path file, SourceLoc loc, SceneDescription& scene)
-      : obj_(obj), file_(std::move(file)), loc_(loc), scene_(scene) {}
+  // `like`: the shape that the file is; its transform makes the file's units those of the scene.
+  ObjMaterials(const ObjResult& obj, std::filesystem::path file, const ShapeDesc& like, SceneDescription& scene)
+      : obj_(obj),
+        file_(std::move(file)),
+        loc_(like.use.loc),
+        unit_(std::cbrt(std::abs(like.to_world.start.determinant3()))),
+        scene_(scene) {}
 
   // Index of the material of that name in the scene, -1 for those that the file does not have.
   int index(const std::string& name) {
@@ -47,7 +52,7 @@ class ObjMaterials {
     int index = -1;
     if (m) {
       index = static_cast<int>(scene_.materials.size());
-      scene_.materials.push_back({"", convert(*m)});
+      scene_.materials.push_back({fmt::format("{}: {}", file_.string(), name), convert(*m)});
     } else if (!name.empty()) {
       missing.push_back(name);
     }
@@ -58,17 +63,24 @@ class ObjMaterials {
   std::optional<Param> alpha(const std::string& name) {
     const ObjMaterial* m = obj_.find(name);
     if (!m || is_glass(*m) || (m->d >= 1 && m->map_d.file.empty())) return {};
-    Param p = m->map_d.file.empty() ? number_param("alpha", {m->d})
-                                    : string_param("alpha", image(*m, m->map_d, m->d, true), ParamKind::kTexture);
+    Param p = m->map_d.file.empty()
+                  ? number_param("alpha", {m->d})
+                  : string_param("alpha", image(*m, m->map_d, m->d, true, "linear"), ParamKind::kTexture);
     p.loc = p.value_loc = loc_;
     return p;
   }
 
   // Names of materials that lose something.
-  std::vector<std::string> missing, tinted;
+  std::vector<std::string> missing, tinted, flat;
 
  private:
   ModelUse convert(const ObjMaterial& m) {
+    ModelUse made = closure(m);
+    if (std::optional<Param> detail = surface_detail(m)) made.params.push_back(std::move(*detail));
+    return made;
+  }
+
+  ModelUse closure(const ObjMaterial& m) {
     if (is_glass(m)) return use("dielectric", {number_param("eta", {m.ni > 1 ? m.ni : 1.5})});
     const bool has_diffuse = !is_black(m.kd) || !m.map_kd.file.empty();
     if (m.pm >= 0.5 || (!has_diffuse && !is_black(m.ks))) {
@@ -94,19 +106,38 @@ class ObjMaterials {
     if (m.map_kd.file.empty()) return rgb_param("reflectance", m.kd);
     if (m.kd.x != m.kd.y || m.kd.y != m.kd.z) tinted.push_back(m.name);
     const double mean = (double(m.kd.x) + m.kd.y + m.kd.z) / 3;
-    return string_param("reflectance", image(m, m.map_kd, mean > 0 ? mean : 1.0, false), ParamKind::kTexture);
+    return string_param("reflectance", image(m, m.map_kd, mean > 0 ? mean : 1.0, false, "sRGB"), ParamKind::kTexture);
   }
 
-  // Adds a texture of the image times a factor, and returns its name.
-  std::string image(const ObjMaterial& m, const ObjMap& map, double scale, bool is_float) {
-    const std::string name = fmt::format("{}: {}: {}", file_.string(), m.name, map.file.string());
+  // The normal map, or the bump map as a height: the surface can have one of them.
+  std::optional<Param> surface_detail(const ObjMaterial& m) {
+    std::optional<Param> detail;
+    if (!m.normal.file.empty()) {
+      if (!m.bump.file.empty()) flat.push_back(m.name);
+      detail = string_param("normalmap", image(m, m.normal, 1, false, "linear"), ParamKind::kTexture);
+    } else if (!m.bump.file.empty()) {
+      const std::string heights = image(m, m.bump, 1, true, "linear"), scaled = heights + " as heights";
+      scene_.textures.push_back({scaled, true,
+                                 use("scale", {string_param("tex", heights, ParamKind::kTexture),
+                                               number_param("scale", {m.bump.height * unit_})}),
+                                 Transform()});
+      detail = string_param("displacement", scaled, ParamKind::kTexture);
+    }
+    if (detail) detail->loc = detail->value_loc = loc_;
+    return detail;
+  }
+
+  // Adds a texture of the image times a factor, and returns its name, which no other texture has.
+  std::string image(const ObjMaterial& m, const ObjMap& map, double scale, bool is_float, std::string encoding) {
+    const std::string name =
+        fmt::format("{}: {}: {} {}", file_.string(), m.name, map.file.string(), scene_.textures.size());
     scene_.textures.push_back(
         {name, is_float,
-         use("imagemap", {string_param("filename", (file_.parent_path() / map.file).string()),
-                          number_param("scale", {scale}), number_param("uscale", {map.scale.x}),
-                          number_param("vscale", {map.scale.y}), number_param("udelta", {map.offset.x}),
-                          number_param("vdelta", {map.offset.y}), string_param("wrap", map.clamp ? "black" : "repeat"),
-                          string_param("encoding", is_float ? "linear" : "sRGB")}),
+         use("imagemap",
+             {string_param("filename", (file_.parent_path() / map.file).string()), number_param("scale", {scale}),
+              number_param("uscale", {map.scale.x}), number_param("vscale", {map.scale.y}),
+              number_param("udelta", {map.offset.x}), number_param("vdelta", {map.offset.y}),
+              string_param("wrap", map.clamp ? "black" : "repeat"), string_param("encoding", std::move(encoding))}),
          Transform()});
     return name;
   }
@@ -114,6 +145,7 @@ class ObjMaterials {
   const ObjResult& obj_;
   std::filesystem::path file_;
   SourceLoc loc_;
+  double unit_;  // of the file, in those of the scene
   SceneDescription& scene_;
   std::map<std::string, int> index_of_;
 };
@@ -123,6 +155,7 @@ void note_losses(const ObjMaterials& materials, SourceLoc loc, const std::string
     if (!names.empty()) diagnostics.note(loc, fmt::format("{}: {}: {}", file, what, fmt::join(names, ", ")));
   };
   note(materials.missing, "materials that no MTL file has, the current one is used");
+  note(materials.flat, "materials with a bump and a normal map, the normal map is used");
   note(materials.tinted, "materials whose image is multiplied by the mean of their coloured Kd");
 }
 
@@ -150,10 +183,11 @@ ModelUse trianglemesh_use(const MeshData& mesh, SourceLoc loc) {
 std::vector<ShapeDesc> add_obj(ObjResult obj, const std::filesystem::path& file, const ShapeDesc& like,
                                SceneDescription& scene, Diagnostics& diagnostics) {
   const SourceLoc loc = like.use.loc;
-  ObjMaterials materials(obj, file, loc, scene);
+  ObjMaterials materials(obj, file, like, scene);
   std::vector<ShapeDesc> shapes;
   for (ObjPart& part : obj.parts) {
     ShapeDesc shape = like;
+    shape.part = static_cast<int>(shapes.size());
     shape.use = trianglemesh_use(std::exchange(part.mesh, {}), loc);
     if (const int index = materials.index(part.material); index >= 0) shape.material = index;
     // The shape's own alpha is for all of it.

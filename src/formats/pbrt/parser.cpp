@@ -75,6 +75,7 @@ void Parser::read_directives() {
       continue;
     }
     directive->read(*this, *token);
+    if (world_begun && ends_at_world) return;
   }
 }
 

@@ -59,6 +59,7 @@ class Parser {
   std::optional<int32_t> seed;
   SourceLoc transform_times;  // of the directive; file -1: not given
   bool any_directive = false;
+  bool ends_at_world = false;  // reading stops behind WorldBegin
   bool world_begun = false;    // WorldBegin was read
   bool world_implied = false;  // it was missing, which has been reported
 };

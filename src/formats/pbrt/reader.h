@@ -18,4 +18,9 @@ SceneDescription read_pbrt(const std::filesystem::path& file, Diagnostics& diagn
 SceneDescription read_pbrt_text(std::string text, const std::string& name, const std::filesystem::path& folder,
                                 Diagnostics& diagnostics);
 
+// How a file looks at a scene: what it says before its WorldBegin, where reading ends if there is one, replaces what
+// `view` says: camera, film, filter, sampler, integrator, times of motion. A file without a camera is an error.
+ViewDescription read_pbrt_view(const std::filesystem::path& file, const ViewDescription& view,
+                               Diagnostics& diagnostics);
+
 }  // namespace etd
