@@ -94,8 +94,8 @@ TEST(Image, DecodesBytesAsAsked) {
   const TempFolder folder;
   ASSERT_EQ(write_rgb(folder.path() / "a.png", 1, 1, std::vector<float>{0.2f, 0.5f, 0.9f}), "");
   const Image srgb = read_image(folder.path() / "a.png").image.value();
-  const Image linear = read_image(folder.path() / "a.png", *parse_image_encoding("linear")).image.value();
-  const Image gamma = read_image(folder.path() / "a.png", *parse_image_encoding("gamma 2.2")).image.value();
+  const Image linear = read_image(folder.path() / "a.png", {*parse_image_encoding("linear"), ""}).image.value();
+  const Image gamma = read_image(folder.path() / "a.png", {*parse_image_encoding("gamma 2.2"), ""}).image.value();
   for (int c = 0; c < 3; ++c) {
     const float encoded = linear.texel(0, 0, c);
     EXPECT_EQ(std::round(encoded * 255.0f), encoded * 255.0f);
@@ -145,7 +145,7 @@ TEST(Image, TgaStandsUprightAndKeepsItsColoursUnderAlpha) {
   const Image grey = read_image(folder.write("grey.tga", tga(3, 8, true, {255, 0}))).image.value();
   EXPECT_EQ(grey.channels(), 1);
   EXPECT_EQ(grey.texel(0, 0, 0), 1.0f);
-  const ImageEncoding linear = {Kind::kLinear, 1};
+  const ImageOptions linear = {ImageEncoding{Kind::kLinear, 1}, ""};
   const Image alpha = read_image(folder.write("alpha.tga", tga(2, 32, true, {50, 100, 200, 64})), linear).image.value();
   ASSERT_EQ(alpha.channels(), 4);
   EXPECT_FLOAT_EQ(alpha.texel(0, 0, 0), 200 / 255.0f);
@@ -210,7 +210,8 @@ TEST(Image, IntegersOfSixteenBitsAreDecodedToFloats) {
   EXPECT_EQ(srgb.bytes(), 64 * sizeof(float));  // one block
   EXPECT_FLOAT_EQ(srgb.texel(0, 0, 0), srgb_to_linear(32768 / 65535.0f));
   EXPECT_FLOAT_EQ(srgb.texel(1, 0, 0), 1.0f);
-  EXPECT_FLOAT_EQ(read_image(path, {Kind::kLinear, 1}).image.value().texel(0, 0, 0), 32768 / 65535.0f);
+  EXPECT_FLOAT_EQ(read_image(path, {ImageEncoding{Kind::kLinear, 1}, ""}).image.value().texel(0, 0, 0),
+                  32768 / 65535.0f);
 }
 
 TEST(Image, SaysWhyItCannotRead) {

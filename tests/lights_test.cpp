@@ -65,7 +65,7 @@ TEST(LightParameters, MistakesAreExplained) {
   };
   expect(R"(LightSource "infinite" "float L" 1 "string filename" "map.pfm")", "can't have both an L and a file");
   expect(R"(LightSource "infinite" "string filename" "odd.pfm")", "4 x 3 texels is no map of directions");
-  expect(R"(LightSource "infinite" "string filename" "infinite.pfm")", "its texel (2, 0) is not finite");
+  expect(R"(LightSource "infinite" "string filename" "infinite.pfm")", "its texel (2, 0) is not finite: it becomes");
   expect(R"(LightSource "infinite" "string filename" "none.pfm")", "cannot read image \"none.pfm\"");
   expect(R"(Scale 1 2 1 LightSource "infinite" "string filename" "map.pfm")", "distorts angles");
   expect(R"(LightSource "goniometric")", "filename");

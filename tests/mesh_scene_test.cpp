@@ -156,6 +156,20 @@ TEST(MeshShapes, ConcaveFacesCoverThemselvesFromEveryFirstCorner) {
   }
 }
 
+TEST(MeshShapes, TellsWhatNobodyCanSee) {
+  const TempFolder folder;
+  folder.write("m.mtl", "newmtl a\nd 0\nnewmtl glass\nd 0\nillum 4\nnewmtl b\nd 1\nTr 1\n");
+  const std::string faces = "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nusemtl glass\nf 1 2 3 4\nusemtl ";
+  std::string messages;
+  folder.write("a.obj", faces + "a\nf 1 2 3 4\n");
+  covered("\"objmesh\" \"string filename\" \"a.obj\"", folder.path(), messages);
+  EXPECT_NE(messages.find("a.obj: materials of opacity 0 (d or Tr), which nobody can see: a\n"), std::string::npos)
+      << messages;
+  folder.write("b.obj", "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nusemtl b\nf 1 2 3 4\n");
+  EXPECT_NEAR(covered("\"objmesh\" \"string filename\" \"b.obj\"", folder.path(), messages), 4.0, 1e-6);
+  EXPECT_NE(messages.find("\"b\" has opacity 1"), std::string::npos) << messages;
+}
+
 TEST(MeshShapes, FacesOfTwoVerticesAreLeftOutWithOneNote) {
   const TempFolder folder;
   folder.write("a.off", "OFF\n5 4 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 0\n4 0 1 2 3\n2 0 4\n1 4\n0\n");

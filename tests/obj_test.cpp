@@ -107,6 +107,21 @@ TEST(Obj, NotesWhatItLeavesOut) {
                            "m.mtl: line 9: norm names no file"}));
 }
 
+TEST(Obj, OpaqueWinsWhereOpacitiesContradict) {
+  const ObjResult r =
+      read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\nf 1 2 3\n",
+                "newmtl a\nd 1\nTr 1\nnewmtl b\nTr 1\nd 1\nnewmtl c\nd .25\nTr .25\nnewmtl d\nd .25\n"
+                "Tr .75\nnewmtl e\nTr 1\nnewmtl f\nd .333\nTr .67\nnewmtl g\nd 0\nTr 0\nnewmtl h\nd 1\nd .5\n");
+  const std::pair<const char*, double> kOpacities[] = {{"a", 1}, {"b", 1},     {"c", 0.75}, {"d", 0.25},
+                                                       {"e", 0}, {"f", 0.333}, {"g", 1},    {"h", 0.5}};
+  for (const auto& [name, d] : kOpacities) EXPECT_EQ(r.find(name)->d, d) << name;
+  EXPECT_EQ(r.notes,
+            (std::vector<std::string>{"m.mtl: line 3: d 1 and Tr 1 contradict each other: \"a\" has opacity 1",
+                                      "m.mtl: line 6: d 1 and Tr 1 contradict each other: \"b\" has opacity 1",
+                                      "m.mtl: line 9: d 0.25 and Tr 0.25 contradict each other: \"c\" has opacity 0.75",
+                                      "m.mtl: line 20: d 0 and Tr 0 contradict each other: \"g\" has opacity 1"}));
+}
+
 TEST(Obj, LeavesOutWhatCannotBeDrawn) {
   const ObjResult r = read_text(
       "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 nan 1\nvn 0 0 1\nvt inf\nusemtl a\nf 2//1 3//2 4\nf 2 3\n"

@@ -46,12 +46,14 @@ TEST(TextureCache, LevelsComeBackAsTheyWere) {
       const Image levels[] = {make(130, 70, kind), make(65, 35, coarse), make(3, 1, coarse)};
       const fs::path file = folder.path() / "levels.tif";
       size_t next = 0;
-      ASSERT_EQ(write_tiled_levels(file, [&] { return next < 3 ? &levels[next++] : nullptr; }), "");
+      ASSERT_EQ(write_tiled_levels(file, {{}, {"one", "two"}}, [&] { return next < 3 ? &levels[next++] : nullptr; }),
+                "");
       TextureCache cache(1 << 20);
       std::string error;
-      const auto cached = cache.open(file, ImageEncoding(), error);
+      const auto cached = cache.open(file, error);
       ASSERT_TRUE(cached) << error;
       ASSERT_EQ(cached->levels(), 3);
+      EXPECT_EQ(cached->info().notes, (std::vector<std::string>{"one", "two"}));
       ASSERT_EQ(cached->channels(), channels);
       CachedTexels texels(*cached);
       for (int level = 0; level < 3; ++level) {

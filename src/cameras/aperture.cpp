@@ -103,8 +103,10 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
         (missing.empty() ? "" : missing + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
     return Aperture();
   };
-  const ImageResult result = read_image(folder / name);
+  const ImageResult result = read_finite_image(folder / name);
   if (!result.image) return fail(fmt::format("cannot read image \"{}\": {}", name, result.error));
+  for (const std::string& note : result.notes)
+    p.diagnostics().note(file.value_loc, fmt::format("image \"{}\": {}", name, note));
   const Image& image = *result.image;
   const int colours = std::min(image.channels(), 3);
   std::vector<double> weights;
@@ -113,8 +115,6 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
     for (int x = 0; x < image.width(); ++x) {
       double sum = 0;
       for (int c = 0; c < colours; ++c) sum += image.texel(x, y, c);
-      if (!std::isfinite(sum))
-        return fail(fmt::format("image \"{}\" can't be an opening: its texel ({}, {}) is not finite", name, x, y));
       weights.push_back(std::max(0.0, sum / colours));
       total += weights.back();
     }

@@ -6,51 +6,21 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <new>
 #include <type_traits>
 
 #include <fmt/format.h>
 
 #include "io/file.h"
+#include "io/image_channels.h"
 #include "io/oiio_setup.h"
 #include "io/pfm.h"
+#include "io/radiance.h"
 #include "spectrum/srgb.h"
 
 namespace etd {
 namespace {
-
-// Which channels of the file become those of the image: one grey, three colours, four with alpha.
-struct ChannelChoice {
-  std::vector<int> of_file;
-  std::string error;
-};
-
-int find_channel(const OIIO::ImageSpec& spec, std::string_view name) {
-  for (int c = 0; c < spec.nchannels; ++c) {
-    if (OIIO::Strutil::iequals(spec.channelnames[static_cast<size_t>(c)],
-                               OIIO::string_view(name.data(), name.size()))) {
-      return c;
-    }
-  }
-  return -1;
-}
-
-ChannelChoice choose_channels(const OIIO::ImageSpec& spec) {
-  const int r = find_channel(spec, "R"), g = find_channel(spec, "G"), b = find_channel(spec, "B");
-  const int a = find_channel(spec, "A");
-  if (r >= 0 && g >= 0 && b >= 0) {
-    if (a >= 0) return {{r, g, b, a}, {}};
-    return {{r, g, b}, {}};
-  }
-  if (spec.nchannels == 1) return {{0}, {}};
-  if (const int y = find_channel(spec, "Y"); y >= 0) {
-    if (a >= 0) return {{y, y, y, a}, {}};
-    return {{y}, {}};
-  }
-  std::string names;
-  for (const std::string& name : spec.channelnames) names += (names.empty() ? "" : ", ") + name;
-  return {{}, fmt::format("it has the channels {}: expected R, G, B or one channel", names)};
-}
 
 // Picks the chosen channels out of pixels of `file_channels` interleaved values.
 template <class T>
@@ -69,33 +39,89 @@ void gather(const std::vector<T>& rows, int file_channels, const std::vector<int
 // Reads the whole image a band of rows at a time, so that a header that promises more than the file holds fails before
 // the memory for it is touched. Returns what went wrong, or an empty string.
 template <class T>
-std::string read_texels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const std::vector<int>& of_file,
+std::string read_texels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const ChannelChoice& choice,
                         std::vector<T>& texels) {
   // What OpenImageIO calls half is here its bits.
   const OIIO::TypeDesc type =
       std::is_same_v<T, uint16_t> ? OIIO::TypeDesc::HALF : OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value);
   const int band = spec.tile_height > 0 ? spec.tile_height : 256;
-  texels.reserve(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) * of_file.size());
+  texels.reserve(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) * choice.of_file.size());
   std::vector<T> rows;
   for (int y = 0; y < spec.height; y += band) {
     const int count = std::min(band, spec.height - y);
     rows.resize(static_cast<size_t>(count) * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels));
     const int begin = spec.y + y, end = begin + count;
     const bool good = spec.tile_width > 0
-                          ? in.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
-                                          spec.nchannels, type, rows.data())
-                          : in.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, rows.data());
+                          ? in.read_tiles(choice.part, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1,
+                                          0, spec.nchannels, type, rows.data())
+                          : in.read_scanlines(choice.part, 0, begin, end, spec.z, 0, spec.nchannels, type, rows.data());
     if (!good) return in.geterror();
-    gather(rows, spec.nchannels, of_file, texels);
+    gather(rows, spec.nchannels, choice.of_file, texels);
   }
   return {};
 }
 
-void flip_rows(std::vector<float>& texels, int height) {
-  const auto row = static_cast<std::ptrdiff_t>(texels.size()) / height;
-  for (std::ptrdiff_t y = 0; y < height / 2; ++y) {
-    std::swap_ranges(texels.begin() + y * row, texels.begin() + (y + 1) * row, texels.end() - (y + 1) * row);
+// Where the pixels of an EXR file (its data window) lie in the picture (its display window).
+struct Window {
+  int x = 0, y = 0, width = 0, height = 0;  // of the pixels, from the picture's top left corner
+  int full_width = 0, full_height = 0;
+
+  bool is_all() const { return x == 0 && y == 0 && width == full_width && height == full_height; }
+  int x0() const { return std::max(0, x); }
+  int x1() const { return std::min(full_width, x + width); }
+  int y0() const { return std::max(0, y); }
+  int y1() const { return std::min(full_height, y + height); }
+};
+
+Window window_of(const OIIO::ImageInput& in, const OIIO::ImageSpec& spec) {
+  Window w{0, 0, spec.width, spec.height, spec.width, spec.height};
+  if (std::string_view(in.format_name()) != "openexr" || spec.full_width < 1 || spec.full_height < 1) return w;
+  return {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height, spec.full_width, spec.full_height};
+}
+
+// The picture: what is outside of it left out, and black where there are no pixels.
+template <class T>
+void fit_window(std::vector<T>& texels, const Window& w, size_t channels) {
+  if (w.is_all()) return;
+  std::vector<T> picture(static_cast<size_t>(w.full_width) * static_cast<size_t>(w.full_height) * channels);
+  for (int y = w.y0(); y < w.y1(); ++y) {
+    const size_t from = static_cast<size_t>(y - w.y) * static_cast<size_t>(w.width) + static_cast<size_t>(w.x0() - w.x);
+    const size_t to = static_cast<size_t>(y) * static_cast<size_t>(w.full_width) + static_cast<size_t>(w.x0());
+    std::copy_n(&texels[from * channels], static_cast<size_t>(w.x1() - w.x0()) * channels, &picture[to * channels]);
   }
+  texels = std::move(picture);
+}
+
+void note_window(const Window& w, std::vector<std::string>& notes) {
+  const int width = w.x1() - w.x0(), height = w.y1() - w.y0();
+  if (width < w.full_width || height < w.full_height)
+    notes.push_back(fmt::format("it has {} x {} of the {} x {} pixels of its display window, the others are black",
+                                width, height, w.full_width, w.full_height));
+  if (width < w.width || height < w.height)
+    notes.push_back(fmt::format("of its {} x {} pixels those outside of its display window of {} x {} are left out",
+                                w.width, w.height, w.full_width, w.full_height));
+}
+
+// What a PNG says of its integers; libpng passes on a gamma only where there is no mark of sRGB. 1 / 2.2 is what the
+// standard has sRGB files say to programs that know gammas alone.
+std::optional<ImageEncoding> encoding_of(const OIIO::ImageInput& in, const OIIO::ImageSpec& spec) {
+  const float gamma = spec.get_float_attribute("oiio:Gamma", 0);
+  if (std::string_view(in.format_name()) != "png" || !(gamma > 0) || !std::isfinite(gamma)) return {};
+  if (std::abs(gamma - 2.2f) < 0.01f) return ImageEncoding{ImageEncoding::Kind::kSrgb, 1};
+  if (std::abs(gamma - 1.0f) < 0.001f) return ImageEncoding{ImageEncoding::Kind::kLinear, 1};
+  return ImageEncoding{ImageEncoding::Kind::kGamma, gamma};
+}
+
+// Primaries and white of Rec. 709 in the order of EXR's attribute.
+void note_chromaticities(const OIIO::ImageSpec& spec, std::vector<std::string>& notes) {
+  constexpr float kRec709[] = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+  float given[8];
+  if (!spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), given)) return;
+  for (size_t i = 0; i < 8; ++i)
+    if (!(std::abs(given[i] - kRec709[i]) < 2e-3f)) {
+      notes.push_back("its chromaticities are not those of Rec. 709, but its values are taken for that");
+      return;
+    }
 }
 
 std::string one_line(std::string text, std::string_view otherwise) {
@@ -104,53 +130,62 @@ std::string one_line(std::string text, std::string_view otherwise) {
   return text.empty() ? std::string(otherwise) : text;
 }
 
-ImageResult fail(std::string error) { return {std::nullopt, std::move(error)}; }
+ImageResult fail(std::string error) { return {std::nullopt, std::move(error), {}, {}, false}; }
 
-ImageResult read_open_image(OIIO::ImageInput& in, ImageEncoding encoding) {
+template <class T>
+std::string read_picture(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const ChannelChoice& choice,
+                         std::vector<T>& texels) {
+  std::string error = read_texels(in, spec, choice, texels);
+  if (in.has_error() || !error.empty()) return one_line(error + in.geterror(), "its pixels could not be read");
+  fit_window(texels, window_of(in, spec), choice.of_file.size());
+  return {};
+}
+
+ImageResult read_open_image(OIIO::ImageInput& in, const ImageOptions& options) {
+  const ChannelChoice choice = choose_channels(in, options.layer);
+  if (!choice.error.empty()) return {{}, choice.error, {}, {}, choice.needs_name};
   const OIIO::ImageSpec spec = in.spec();
+  const Window window = window_of(in, spec);
   constexpr int kLargestSide = 1 << 17;
-  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1) {
+  const auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
+  if (!fits(spec.width) || !fits(spec.height) || !fits(window.full_width) || !fits(window.full_height) ||
+      spec.depth > 1)
     return fail(
         fmt::format("it has {} x {} x {} pixels, which no image here can have", spec.width, spec.height, spec.depth));
-  }
-  const ChannelChoice choice = choose_channels(spec);
-  if (!choice.error.empty()) return fail(choice.error);
+  if (spec.deep) return fail("its pixels are deep, with any number of values in each, which is not supported");
+  if (window.x0() >= window.x1() || window.y0() >= window.y1())
+    return fail("all of its pixels lie outside of its display window");
   const int channels = static_cast<int>(choice.of_file.size());
-  const auto cannot_read = [](std::string error) {
-    return fail(one_line(std::move(error), "its pixels could not be read"));
-  };
+  ImageResult result;
+  result.encoding = options.encoding.value_or(encoding_of(in, spec).value_or(ImageEncoding()));
+  if (!choice.note.empty()) result.notes.push_back(choice.note);
+  note_window(window, result.notes);
+  note_chromaticities(spec, result.notes);
 
   if (spec.format == OIIO::TypeDesc::UINT8 && spec.channelformats.empty()) {
     std::vector<uint8_t> texels;
-    if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
-      return cannot_read(error + in.geterror());
-    }
-    return {Image(spec.width, spec.height, channels, texels, encoding), {}};
+    if (std::string error = read_picture(in, spec, choice, texels); !error.empty()) return fail(error);
+    result.image = Image(window.full_width, window.full_height, channels, texels, result.encoding);
+    return result;
   }
-  if (spec.format == OIIO::TypeDesc::HALF && spec.channelformats.empty()) {
+  if (spec.format == OIIO::TypeDesc::HALF && spec.channelformats.empty() && !choice.luminance_chroma) {
     std::vector<uint16_t> texels;
-    if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
-      return cannot_read(error + in.geterror());
-    }
-    return {Image(spec.width, spec.height, channels, texels), {}};
+    if (std::string error = read_picture(in, spec, choice, texels); !error.empty()) return fail(error);
+    result.image = Image(window.full_width, window.full_height, channels, texels);
+    return result;
   }
   std::vector<float> texels;
-  if (std::string error = read_texels(in, spec, choice.of_file, texels); in.has_error() || !error.empty()) {
-    return cannot_read(error + in.geterror());
-  }
+  if (std::string error = read_picture(in, spec, choice, texels); !error.empty()) return fail(error);
+  if (choice.luminance_chroma)
+    for (size_t i = 0; i < texels.size(); i += choice.of_file.size()) luminance_chroma_to_rgb(&texels[i]);
   if (!spec.format.is_floating_point()) {
     for (size_t i = 0; i < texels.size(); ++i) {
       const bool is_alpha = channels == 4 && i % 4 == 3;
-      if (!is_alpha) texels[i] = encoding.to_linear(texels[i]);
+      if (!is_alpha) texels[i] = result.encoding.to_linear(texels[i]);
     }
   }
-  // Radiance files may run from bottom to top, which OpenImageIO only tells.
-  if (std::string_view(in.format_name()) == "hdr") {
-    const int orientation = spec.get_int_attribute("Orientation", 1);
-    if (orientation == 4) flip_rows(texels, spec.height);
-    if (orientation != 1 && orientation != 4) return fail("it is a Radiance file with turned or mirrored axes");
-  }
-  return {Image(spec.width, spec.height, channels, texels), {}};
+  result.image = Image(window.full_width, window.full_height, channels, texels);
+  return result;
 }
 
 }  // namespace
@@ -179,6 +214,11 @@ std::optional<ImageEncoding> parse_image_encoding(std::string_view text) {
   if (parsed.ec != std::errc() || parsed.ptr != number.data() + number.size()) return std::nullopt;
   if (!(gamma > 0) || !std::isfinite(gamma)) return std::nullopt;
   return ImageEncoding{ImageEncoding::Kind::kGamma, gamma};
+}
+
+std::string image_encoding_name(ImageEncoding encoding) {
+  if (encoding.kind == ImageEncoding::Kind::kGamma) return fmt::format("gamma {}", encoding.gamma);
+  return encoding.kind == ImageEncoding::Kind::kSrgb ? "sRGB" : "linear";
 }
 
 TexelFormat::TexelFormat(Kind kind, ImageEncoding encoding) : kind_(kind) {
@@ -252,27 +292,39 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, 
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;
   std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string(), &config);
-  if (in == nullptr) error = one_line(OIIO::geterror(), "not an image of a known format");
+  if (in != nullptr) return in;
+  error = one_line(OIIO::geterror(), "not an image of a known format");
+  if (error.find("Subsampled") != std::string::npos)
+    error = "channels of lower resolution, as chroma often has, are not supported: " + error;
   return in;
+}
+
+std::string first_bytes(const std::filesystem::path& path, size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<size_t>(in.gcount()));
+  return bytes;
 }
 
 bool is_pfm(const std::filesystem::path& path) { return OIIO::Strutil::iequals(path.extension().string(), ".pfm"); }
 
 }  // namespace
 
-ImageResult read_image(const std::filesystem::path& path, ImageEncoding encoding) {
+ImageResult read_image(const std::filesystem::path& path, const ImageOptions& options) {
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(path, failed);
   if (!std::filesystem::exists(status)) return fail("the file does not exist");
   if (!std::filesystem::is_regular_file(status)) return fail("not a regular file");
-  if (is_pfm(path)) {
-    const FileBytes file = read_file(path);
-    return file.error.empty() ? decode_pfm(file.bytes) : fail(file.error);
-  }
   try {
+    if (is_pfm(path) || is_radiance(first_bytes(path, 2))) {
+      const FileBytes file = read_file(path);
+      if (!file.error.empty()) return fail(file.error);
+      return is_pfm(path) ? decode_pfm(file.bytes) : decode_radiance(file.bytes);
+    }
     std::string error;
     const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
-    return in ? read_open_image(*in, encoding) : fail(error);
+    return in ? read_open_image(*in, options) : fail(error);
   } catch (const std::bad_alloc&) {
     return fail("there is not enough memory for it");
   } catch (const std::exception& error) {
@@ -280,7 +332,7 @@ ImageResult read_image(const std::filesystem::path& path, ImageEncoding encoding
   }
 }
 
-size_t image_bytes(const std::filesystem::path& path) {
+size_t image_bytes(const std::filesystem::path& path, const ImageOptions& options) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return 0;
   if (is_pfm(path)) {
@@ -288,16 +340,19 @@ size_t image_bytes(const std::filesystem::path& path) {
     return failed ? 0 : static_cast<size_t>(size);
   }
   try {
+    constexpr size_t kLongestHeader = 1 << 16;
+    if (const std::string start = first_bytes(path, kLongestHeader); is_radiance(start)) return radiance_bytes(start);
     std::string error;
     const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
     if (in == nullptr) return 0;
+    const ChannelChoice choice = choose_channels(*in, options.layer);
     const OIIO::ImageSpec spec = in->spec();
-    const ChannelChoice choice = choose_channels(spec);
-    const bool same = spec.channelformats.empty();
+    const Window window = window_of(*in, spec);
+    const bool same = spec.channelformats.empty() && !choice.luminance_chroma;
     const size_t number = same && spec.format == OIIO::TypeDesc::UINT8  ? 1
                           : same && spec.format == OIIO::TypeDesc::HALF ? 2
                                                                         : 4;
-    return static_cast<size_t>(std::max(spec.width, 0)) * static_cast<size_t>(std::max(spec.height, 0)) *
+    return static_cast<size_t>(std::max(window.full_width, 0)) * static_cast<size_t>(std::max(window.full_height, 0)) *
            choice.of_file.size() * number;
   } catch (const std::exception&) {
     return 0;

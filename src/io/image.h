@@ -28,6 +28,7 @@ struct ImageEncoding {
 
 // "sRGB", "linear" or "gamma X" with X > 0, as the pbrt-v4 language writes them; nothing for any other text.
 std::optional<ImageEncoding> parse_image_encoding(std::string_view text);
+std::string image_encoding_name(ImageEncoding encoding);
 
 // How texels are stored, and what stored ones stand for.
 class TexelFormat {
@@ -71,6 +72,8 @@ class TexelFormat {
   std::array<float, 256> decoded_{};  // the linear value of each byte
 };
 
+struct MendedImage;
+
 class Image {
  public:
   // Texels row by row from the top, channels interleaved; their number must be width * height * channels, with 1
@@ -98,9 +101,12 @@ class Image {
 
  private:
   friend Image without_opaque_alpha(Image image);
+  friend MendedImage mend_texels(Image image);
   static constexpr int kBlock = 8;  // texels near each other in the image are near in memory, too
 
   Image(int width, int height, int channels, TexelFormat format, const std::byte* rows);
+  // Of a format that is not bytes.
+  void set_texel(int x, int y, int c, float linear);
   // Of a texel, in units of texels.
   size_t index(int x, int y) const {
     assert(x >= 0 && x < width_ && y >= 0 && y < height_);
@@ -118,17 +124,35 @@ class Image {
 struct ImageResult {
   std::optional<Image> image;
   std::string error;
+  std::vector<std::string> notes;  // what was not taken, or not as it stands
+  ImageEncoding encoding;          // of its integers
+  bool needs_layer = false;        // the error could be mended by naming a part or layer
+};
+
+struct ImageOptions {
+  std::optional<ImageEncoding> encoding;  // of integers; otherwise what the file says, or sRGB
+  std::string layer;                      // the part or layer of an EXR file; empty: the one that has R, G and B
 };
 
 // Reads PNG, JPEG, TGA, TIFF, EXR, HDR, PFM and what else OpenImageIO knows. 8-bit files stay 8-bit and half files
-// half; other integers are decoded with `encoding` too, floating-point values are taken as they are. Palettes are
-// expanded, grey with alpha becomes RGB with alpha, and of layered files the channels R, G, B (and A) are taken, of
-// files with parts the first. Colours are multiplied by alpha or not as the file has them. Rotation tags of cameras are
-// not obeyed: row 0 is the top row that the file stores.
-ImageResult read_image(const std::filesystem::path& path, ImageEncoding encoding = {});
+// half; other integers are decoded too, floating-point values are taken as they are. Palettes are expanded, grey with
+// alpha becomes RGB with alpha, luminance with chroma RGB, and of EXR files the part or layer with channels R, G, B
+// (and A) is taken (io/image_channels.h), placed in its display window. Colours are multiplied by alpha or not as the
+// file has them. Rotation tags of cameras are not obeyed: row 0 is the top row that the file stores.
+ImageResult read_image(const std::filesystem::path& path, const ImageOptions& options = {});
 
 // The memory that an image will take, without reading it; 0 when it can't be read.
-size_t image_bytes(const std::filesystem::path& path);
+size_t image_bytes(const std::filesystem::path& path, const ImageOptions& options = {});
+
+// The same image with the mean of its finite neighbours in place of each texel that is not finite in all channels.
+struct MendedImage {
+  Image image;
+  size_t texels = 0;  // that were not finite; all of them: nothing could be done
+  int x = 0, y = 0;   // of the first
+};
+MendedImage mend_texels(Image image);
+// read_image() as textures and lights want it: mended, with a note. An image without a finite texel is an error.
+ImageResult read_finite_image(const std::filesystem::path& path, const ImageOptions& options = {});
 
 // The image without an alpha that is 1 everywhere.
 Image without_opaque_alpha(Image image);

@@ -75,7 +75,8 @@ class UnfitPositions {
 // Leaves out the vertices that no triangle uses, and returns their number.
 size_t drop_unused_vertices(MeshData& mesh);
 
-// Completes a mesh of all vertices of a file with its faces: triangles, and only vertices that they use.
+// Completes a mesh of all vertices of a file with its faces: triangles, and only vertices that they use. When there are
+// problems already, it only adds those of positions.
 void finish_mesh(MeshData& mesh, FaceList& faces, const UnfitPositions& unfit, MeshLosses& losses,
                  ProblemList& problems);
 

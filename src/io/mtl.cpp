@@ -43,6 +43,7 @@ class MtlReader {
       if (words_[0] == "newmtl") {
         result_.materials.emplace_back().name = join_words(words_, 1);
         inside_ = true;
+        opacity_.reset(), opacity_by_tr_.reset();
       } else if (!inside_) {
         note(fmt::format("{} stands before the first newmtl", in_quotes(words_[0])));
       } else if (!statement(result_.materials.back()) &&
@@ -68,8 +69,10 @@ class MtlReader {
     if (key == "d" || key == "Tr") {
       // "d -halo x" fades towards the rim, which nothing here does.
       if (words_.size() > 1 && words_[1] == "-halo") return false;
-      number(m.d, 0, 1);
-      if (key == "Tr") m.d = 1 - m.d;
+      double value = key == "d" ? m.d : 1 - m.d;
+      number(value, 0, 1);
+      (key == "d" ? opacity_ : opacity_by_tr_) = key == "d" ? value : 1 - value;
+      set_opacity(m);
       return true;
     }
     if (key == "illum") {
@@ -85,6 +88,17 @@ class MtlReader {
     if (key == "map_Bump" || key == "map_bump" || key == "bump") return map(m.bump, true), true;
     if (key == "norm" || key == "map_norm") return map(m.normal), true;
     return false;
+  }
+
+  // Tr is 1 - d, but some programs write it as d. Of two statements that contradict each other, the one that shows more
+  // counts.
+  void set_opacity(ObjMaterial& m) {
+    m.d = opacity_.value_or(opacity_by_tr_.value_or(1));
+    constexpr double kRounded = 0.01;
+    if (!opacity_ || !opacity_by_tr_ || std::abs(*opacity_ - *opacity_by_tr_) <= kRounded) return;
+    m.d = std::max(*opacity_, *opacity_by_tr_);
+    note(fmt::format("d {} and Tr {} contradict each other: {} has opacity {}", *opacity_, 1 - *opacity_by_tr_,
+                     in_quotes(m.name), m.d));
   }
 
   void number(double& to, double least, double most) {
@@ -167,6 +181,7 @@ class MtlReader {
   ObjResult& result_;
   std::vector<std::string_view> words_;
   bool inside_ = false;
+  std::optional<double> opacity_, opacity_by_tr_;  // of the material, by d and by Tr
   std::set<std::string> unused_;
 };
 

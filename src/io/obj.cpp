@@ -91,7 +91,7 @@ ObjResult ObjReader::read() {
         result_.parts.push_back({part.material, std::move(mesh)});
   if (problems_.empty() && result_.parts.empty()) problems_.add(kNoFaces);
   if (colours_) result_.notes.push_back("vertex colours are not used");
-  losses_.add_notes(result_.notes);
+  if (problems_.empty()) losses_.add_notes(result_.notes);
   if (no_uvs_) result_.notes.push_back("corners without texture coordinates have (0, 0), as others have them");
   if (!unused_.empty()) result_.notes.push_back(fmt::format("statements not used: {}", fmt::join(unused_, ", ")));
   result_.problems = problems_.take();

@@ -87,10 +87,10 @@ MeshResult OffReader::read() {
     read_vertices();
     if (problems_.empty()) read_faces();
   }
-  if (problems_.empty()) finish_mesh(mesh_, faces_, unfit_, losses_, problems_);
+  if (mesh_.positions.size() == vertex_count_) finish_mesh(mesh_, faces_, unfit_, losses_, problems_);
   if (vertex_colours_) notes_.push_back("vertex colours are not used");
   if (face_colours_) notes_.push_back("face colours are not used");
-  losses_.add_notes(notes_);
+  if (problems_.empty()) losses_.add_notes(notes_);
   MeshResult result;
   if (problems_.empty()) result.mesh = std::move(mesh_);
   result.problems = problems_.take();

@@ -40,7 +40,7 @@ float float_at(const char* raw, bool little_endian) {
   return value;
 }
 
-ImageResult fail(std::string error) { return {std::nullopt, std::move(error)}; }
+ImageResult fail(std::string error) { return {std::nullopt, std::move(error), {}, {}, false}; }
 
 }  // namespace
 
@@ -73,7 +73,7 @@ ImageResult decode_pfm(std::string_view bytes) {
       texels.push_back(std::abs(scale) * float_at(left.data() + i * sizeof(float), scale < 0));
     }
   }
-  return {Image(width, height, channels, texels), {}};
+  return {Image(width, height, channels, texels), {}, {}, {}, false};
 }
 
 std::string pfm_header(int width, int height) { return fmt::format("PF\n{} {}\n-1.0\n", width, height); }

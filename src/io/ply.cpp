@@ -81,8 +81,9 @@ MeshResult PlyMeshReader::read() {
         if (std::string extra = body->leftover(); !extra.empty()) problems_.add(std::move(extra));
       }
     }
-    if (problems_.empty()) finish_mesh(mesh_, face_list_, unfit_, losses_, problems_);
-    losses_.add_notes(notes_);
+    if (vertices_.element && mesh_.positions.size() == vertices_.element->count)
+      finish_mesh(mesh_, face_list_, unfit_, losses_, problems_);
+    if (problems_.empty()) losses_.add_notes(notes_);
   }
   MeshResult result;
   if (problems_.empty()) result.mesh = std::move(mesh_);

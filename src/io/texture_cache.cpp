@@ -27,7 +27,7 @@ std::optional<TexelFormat::Kind> kind_of(OIIO::TypeDesc type) {
 }
 
 // Nothing that a library could take for colours or alpha, and multiply.
-OIIO::ImageSpec spec_of(const Image& level) {
+OIIO::ImageSpec spec_of(const Image& level, const std::string& description) {
   OIIO::ImageSpec spec(level.width(), level.height(), level.channels(), stored_type(level.format().kind()));
   spec.tile_width = spec.tile_height = kTile;
   spec.tile_depth = 1;
@@ -36,7 +36,28 @@ OIIO::ImageSpec spec_of(const Image& level) {
   spec["oiio:UnassociatedAlpha"] = 1;
   spec["compression"] = "zip:1";
   spec["tiff:half"] = 1;  // otherwise halves become floats
+  spec["ImageDescription"] = description;
   return spec;
+}
+
+// Lines of text: the encoding, then the notes.
+std::string description_of(const TiledInfo& info) {
+  std::string text = image_encoding_name(info.encoding);
+  for (const std::string& note : info.notes) text += "\n" + note;
+  return text;
+}
+
+std::optional<TiledInfo> parse_description(std::string_view text) {
+  const auto take_line = [&text] {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
+  };
+  const auto encoding = parse_image_encoding(take_line());
+  if (!encoding) return {};
+  TiledInfo info{*encoding, {}};
+  while (!text.empty()) info.notes.emplace_back(take_line());
+  return info;
 }
 
 bool write_tiles(OIIO::ImageOutput& out, const Image& level) {
@@ -54,7 +75,8 @@ bool write_tiles(OIIO::ImageOutput& out, const Image& level) {
 
 }  // namespace
 
-std::string write_tiled_levels(const std::filesystem::path& path, const std::function<const Image*()>& next) {
+std::string write_tiled_levels(const std::filesystem::path& path, const TiledInfo& info,
+                               const std::function<const Image*()>& next) {
   prepare_oiio();
   PendingFile file(path);
   if (!file.error().empty()) return file.error();
@@ -63,7 +85,8 @@ std::string write_tiled_levels(const std::filesystem::path& path, const std::fun
     if (out == nullptr) return OIIO::geterror();
     auto mode = OIIO::ImageOutput::Create;
     while (const Image* level = next()) {
-      if (!out->open(file.path().string(), spec_of(*level), mode) || !write_tiles(*out, *level)) return out->geterror();
+      if (!out->open(file.path().string(), spec_of(*level, description_of(info)), mode) || !write_tiles(*out, *level))
+        return out->geterror();
       mode = OIIO::ImageOutput::AppendSubimage;
     }
     if (!out->close()) return out->geterror();
@@ -93,8 +116,7 @@ TextureCache::TextureCache(size_t bytes) : impl_(std::make_unique<Impl>()) {
 
 TextureCache::~TextureCache() { OIIO::ImageCache::destroy(impl_->cache); }
 
-std::shared_ptr<const CachedImage> TextureCache::open(const std::filesystem::path& path, ImageEncoding encoding,
-                                                      std::string& error) {
+std::shared_ptr<const CachedImage> TextureCache::open(const std::filesystem::path& path, std::string& error) {
   auto image = std::make_shared<CachedImage>();
   image->cache_ = this;
   OIIO::ImageCache& cache = *impl_->cache;
@@ -104,13 +126,15 @@ std::shared_ptr<const CachedImage> TextureCache::open(const std::filesystem::pat
   for (OIIO::ImageSpec spec; handle && cache.get_imagespec(handle, nullptr, spec, image->levels());) {
     const auto kind = kind_of(spec.format);
     const bool first = image->levels_.empty();
-    if (!kind || spec.tile_width != kTile || spec.tile_height != kTile ||
+    const auto info = parse_description(spec.get_string_attribute("ImageDescription"));
+    if (!info || !kind || spec.tile_width != kTile || spec.tile_height != kTile ||
         (!first && spec.nchannels != image->channels_)) {
       image->levels_.clear();
       break;
     }
     image->channels_ = spec.nchannels;
-    image->levels_.push_back({spec.width, spec.height, TexelFormat(*kind, encoding)});
+    image->info_ = *info;
+    image->levels_.push_back({spec.width, spec.height, TexelFormat(*kind, info->encoding)});
   }
   error = cache.geterror();
   if (!image->levels_.empty()) return image;

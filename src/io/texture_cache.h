@@ -12,10 +12,17 @@
 
 namespace etd {
 
+// What a file of tiles says about the image that it was made from.
+struct TiledInfo {
+  ImageEncoding encoding;          // of bytes
+  std::vector<std::string> notes;  // of reading it
+};
+
 // Writes an image and its coarser levels, finest first, as a file of tiles that TextureCache reads: each level as it is
 // stored in memory. `next` gives one level after the other, and null at the end. The file appears when it is complete.
 // Returns what went wrong, or an empty string.
-std::string write_tiled_levels(const std::filesystem::path& path, const std::function<const Image*()>& next);
+std::string write_tiled_levels(const std::filesystem::path& path, const TiledInfo& info,
+                               const std::function<const Image*()>& next);
 
 class CachedImage;
 
@@ -27,9 +34,8 @@ class TextureCache {
   TextureCache(const TextureCache&) = delete;
   TextureCache& operator=(const TextureCache&) = delete;
 
-  // A file of write_tiled_levels(), whose bytes stand for values by `encoding`; null and a reason if it is none.
-  std::shared_ptr<const CachedImage> open(const std::filesystem::path& path, ImageEncoding encoding,
-                                          std::string& error);
+  // A file of write_tiled_levels(); null and a reason if it is none.
+  std::shared_ptr<const CachedImage> open(const std::filesystem::path& path, std::string& error);
   // Of the tiles in memory now.
   size_t bytes_in_use() const;
   // What went wrong first when tiles were read, which were then taken as black; empty: nothing.
@@ -48,6 +54,7 @@ class CachedImage {
   int width(int level) const { return levels_[static_cast<size_t>(level)].width; }
   int height(int level) const { return levels_[static_cast<size_t>(level)].height; }
   int channels() const { return channels_; }
+  const TiledInfo& info() const { return info_; }
 
  private:
   friend class TextureCache;
@@ -59,6 +66,7 @@ class CachedImage {
   TextureCache* cache_ = nullptr;
   void* handle_ = nullptr;  // of the file in OpenImageIO's cache
   int channels_ = 1;
+  TiledInfo info_;
   std::vector<Level> levels_;
 };
 

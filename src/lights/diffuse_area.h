@@ -25,6 +25,7 @@ inline const ModelDecl& diffuse_area_decl() {
         .doc = "Emitted radiance."},
        filename_param("Image of the radiance over the shape's uv, instead of L; (0, 0) is its lower left corner.",
                       false),
+       layer_param(),
        scale_param(),
        power_param(),
        {.name = "twosided",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/layer_param.h"
 #include "io/missing_file.h"
 #include "lights/light_data.h"
 
@@ -127,37 +128,38 @@ Spectrum EnvironmentMap::irradiance_up() const {
   return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
 }
 
+namespace {
+
+// Which image of which file a light means.
+std::filesystem::path image_key(const ParamReader& params, const std::filesystem::path& folder) {
+  return (folder / params.given("filename")->strings[0]).string() + "\n" + layer_name(params);
+}
+
+}  // namespace
+
 std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
                                       const LightData& data) {
   const Param* file = params.given("filename");
   if (!file) return {};
   const std::string& name = file->strings[0];
+  const std::filesystem::path key = image_key(params, folder);
   if (data.kept)
-    if (const auto known = data.kept->find(folder / name); known != data.kept->end()) return known->second;
-  ImageResult result = read_image(folder / name);
-  if (!result.image) {
-    params.diagnostics().error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
-                               missing_file_hint({folder}, name));
-    return {};
-  }
-  const Image& image = *result.image;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      for (int c = 0; c < std::min(image.channels(), 3); ++c)
-        if (!std::isfinite(image.texel(x, y, c))) {
-          params.diagnostics().error(
-              file->value_loc,
-              fmt::format("image \"{}\" can't be a light: its texel ({}, {}) is not finite", name, x, y));
-          return {};
-        }
-  if (data.kept) data.kept->emplace(folder / name, *result.image);
+    if (const auto known = data.kept->find(key); known != data.kept->end()) return known->second;
+  Diagnostics& diagnostics = params.diagnostics();
+  ImageResult result = read_finite_image(folder / name, {{}, layer_name(params)});
+  if (!result.image)
+    diagnostics.error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
+                      result.needs_layer ? kLayerHint : missing_file_hint({folder}, name));
+  for (const std::string& note : result.notes)
+    diagnostics.note(file->value_loc, fmt::format("image \"{}\": {}", name, note));
+  if (data.kept && result.image) data.kept->emplace(key, *result.image);
   return std::move(result.image);
 }
 
 const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context) {
   const Param* file = params.given("filename");
   if (!file) return nullptr;
-  const auto [entry, is_new] = context.data.environment_of.try_emplace(context.folder / file->strings[0], nullptr);
+  const auto [entry, is_new] = context.data.environment_of.try_emplace(image_key(params, context.folder), nullptr);
   if (entry->second || !is_new) return entry->second;
   const std::optional<Image> image = read_light_image(params, context.folder, context.data);
   if (!image) return nullptr;

@@ -63,8 +63,8 @@ class EnvironmentMap {
   Spectrum integral_;
 };
 
-// Reads the image of a light's "filename". Reports what keeps it from being one (unreadable, values that are not
-// finite), and then gives nothing.
+// Reads the image of a light's "filename", with finite values. Reports what keeps it from being one, and then gives
+// nothing.
 std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
                                       const LightData& data);
 // The same as a map of directions, which context.data keeps, read once for all lights of one file; null on failure.

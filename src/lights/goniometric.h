@@ -21,7 +21,7 @@ struct GoniometricIntensity {
                                              "(equal-area octahedral) or twice as wide as high (latitude-longitude); "
                                              "the light's +y is in the middle or above.",
                                              true),
-                              scale_param(), power_param()}};
+                              layer_param(), scale_param(), power_param()}};
     return d;
   }
   static std::optional<PointLight<GoniometricIntensity>> create(const ParamReader& p, const LightContext& context) {

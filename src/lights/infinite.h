@@ -20,6 +20,7 @@ inline const ModelDecl& infinite_decl() {
                       "it, +z in the middle), or twice as wide as high (latitude-longitude, +z above, from +x towards "
                       "+y).",
                       false),
+       layer_param(),
        {.name = "portal",
         .type = ParamType::kPoint3,
         .array = true,

@@ -5,6 +5,7 @@
 
 #include "core/frame.h"
 #include "core/transform.h"
+#include "io/layer_param.h"
 #include "params/declaration.h"
 #include "spectrum/spectrum.h"
 

@@ -18,6 +18,7 @@ struct ProjectionIntensity {
                              "projection",
                              "An image projected from one point along the light's +z.",
                              {filename_param("Image of the radiant intensity, in W/sr.", true),
+                              layer_param(),
                               {.name = "fov",
                                .default_value = 90.0,
                                .min = 0,

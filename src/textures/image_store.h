@@ -26,17 +26,17 @@ class ImageStore {
   ImageStore(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
 
   // Index of an image of the table, which load() will read; with coarser levels if it says how the image is wrapped for
-  // them. -1 and an error for an unknown encoding.
-  int32_t add(const Param& filename, std::string_view encoding, std::optional<ImageWrap> levels,
-              Diagnostics& diagnostics);
+  // them. An empty encoding is the one that the file says. -1 and an error for an unknown encoding.
+  int32_t add(const Param& filename, std::string_view encoding, const std::string& layer,
+              std::optional<ImageWrap> levels, Diagnostics& diagnostics);
   // Reads the images that were added since the last call, and reports those that can't be read.
   void load(const TextureMemory& memory, Diagnostics& diagnostics);
 
  private:
   struct Request {
     std::filesystem::path path;
-    std::string encoding_text;
-    ImageEncoding encoding;
+    ImageOptions options;
+    std::string options_text;  // tells them apart
     std::optional<ImageWrap> levels;
     SourceLoc loc;
     std::string name;  // as the scene writes it
@@ -44,7 +44,8 @@ class ImageStore {
 
   TextureImage in_memory(const Request& r, Diagnostics& diagnostics);
   TextureImage from_tiles(const Request& r, const std::filesystem::path& cache_folder, Diagnostics& diagnostics);
-  std::optional<Image> read(const Request& r, Diagnostics& diagnostics) const;
+  std::optional<ImageResult> read(const Request& r, Diagnostics& diagnostics) const;
+  void report(const Request& r, const std::vector<std::string>& notes, Diagnostics& diagnostics) const;
   // Makes the file of tiles. False and an error when that fails.
   bool convert(const Request& r, const std::filesystem::path& to, Diagnostics& diagnostics) const;
 
@@ -52,7 +53,7 @@ class ImageStore {
   std::filesystem::path folder_;
   std::vector<Request> requests_;  // by index in the table
   size_t loaded_ = 0;
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> finest_;  // by path and encoding
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> finest_;  // by path and options
 };
 
 }  // namespace etd

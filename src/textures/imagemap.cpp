@@ -1,5 +1,7 @@
 #include "textures/imagemap.h"
 
+#include "io/layer_param.h"
+
 namespace etd {
 
 const ModelDecl& ImageMapTexture::decl() {
@@ -34,7 +36,10 @@ const ModelDecl& ImageMapTexture::decl() {
          .doc = "Use one minus the scaled value instead."},
         {.name = "encoding",
          .type = ParamType::kString,
-         .doc = "How integers in the file stand for values: sRGB (default), linear, or gamma X."}}});
+         .doc =
+             "How integers in the file stand for values: sRGB, linear, or gamma X; otherwise what a PNG file says, and "
+             "sRGB where none does."},
+        layer_param()}});
   return d;
 }
 
@@ -56,8 +61,11 @@ ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b)
   t.is_float = b.is_float();
   const bool over_footprint = t.filter == ImageFilter::kTrilinear || t.filter == ImageFilter::kEwa;
   const Param* encoding = p.given("encoding");
+  if (encoding && encoding->strings[0].empty())
+    p.diagnostics().error(encoding->value_loc, "the image encoding is empty",
+                          "valid: \"sRGB\", \"linear\", \"gamma 2.2\", or no \"encoding\" for what the file says");
   if (const Param* file = p.given("filename"))
-    t.image = b.image(*file, encoding ? encoding->strings[0] : "sRGB",
+    t.image = b.image(*file, encoding ? encoding->strings[0] : "", layer_name(p),
                       over_footprint ? std::optional(t.wrap) : std::nullopt, p.diagnostics());
   return t;
 }

@@ -45,9 +45,9 @@ class TextureBuilder {
   // A texture of the table that shows an image over uv, bilinear and repeated; -1 and an error when it can't be read.
   int32_t image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
   // Index of an image of the table (see ImageStore::add()).
-  int32_t image(const Param& filename, std::string_view encoding, std::optional<ImageWrap> levels,
-                Diagnostics& diagnostics) {
-    return images_.add(filename, encoding, levels, diagnostics);
+  int32_t image(const Param& filename, std::string_view encoding, const std::string& layer,
+                std::optional<ImageWrap> levels, Diagnostics& diagnostics) {
+    return images_.add(filename, encoding, layer, levels, diagnostics);
   }
   // Reads the images that were asked for since the last call; none can be looked up before.
   void load_images(const TextureMemory& memory, Diagnostics& diagnostics) { images_.load(memory, diagnostics); }

@@ -91,7 +91,7 @@ std::span<const ModelDecl* const> texture_models() {
 
 int32_t TextureBuilder::image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics) {
   ImageMapTexture texture;
-  texture.image = images_.add(filename, encoding, {}, diagnostics);
+  texture.image = images_.add(filename, encoding, {}, {}, diagnostics);
   if (texture.image < 0) return -1;
   table_.textures.push_back(Texture(texture));
   return static_cast<int32_t>(table_.textures.size()) - 1;

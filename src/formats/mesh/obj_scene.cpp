@@ -63,6 +63,7 @@ class ObjMaterials {
   std::optional<Param> alpha(const std::string& name) {
     const ObjMaterial* m = obj_.find(name);
     if (!m || is_glass(*m) || (m->d >= 1 && m->map_d.file.empty())) return {};
+    if (m->d == 0) invisible.push_back(name);
     Param p = m->map_d.file.empty()
                   ? number_param("alpha", {m->d})
                   : string_param("alpha", image(*m, m->map_d, m->d, true, "linear"), ParamKind::kTexture);
@@ -71,7 +72,7 @@ class ObjMaterials {
   }
 
   // Names of materials that lose something.
-  std::vector<std::string> missing, tinted, flat;
+  std::vector<std::string> missing, tinted, flat, invisible;
 
  private:
   ModelUse convert(const ObjMaterial& m) {
@@ -156,6 +157,7 @@ void note_losses(const ObjMaterials& materials, SourceLoc loc, const std::string
   };
   note(materials.missing, "materials that no MTL file has, the current one is used");
   note(materials.flat, "materials with a bump and a normal map, the normal map is used");
+  note(materials.invisible, "materials of opacity 0 (d or Tr), which nobody can see");
   note(materials.tinted, "materials whose image is multiplied by the mean of their coloured Kd");
 }
 
