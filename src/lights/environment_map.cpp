@@ -128,21 +128,16 @@ Spectrum EnvironmentMap::irradiance_up() const {
   return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
 }
 
-namespace {
-
-// Which image of which file a light means.
-std::filesystem::path image_key(const ParamReader& params, const std::filesystem::path& folder) {
+std::filesystem::path light_image_key(const ParamReader& params, const std::filesystem::path& folder) {
   return (folder / params.given("filename")->strings[0]).string() + "\n" + layer_name(params);
 }
-
-}  // namespace
 
 std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
                                       const LightData& data) {
   const Param* file = params.given("filename");
   if (!file) return {};
   const std::string& name = file->strings[0];
-  const std::filesystem::path key = image_key(params, folder);
+  const std::filesystem::path key = light_image_key(params, folder);
   if (data.kept)
     if (const auto known = data.kept->find(key); known != data.kept->end()) return known->second;
   Diagnostics& diagnostics = params.diagnostics();
@@ -159,7 +154,8 @@ std::optional<Image> read_light_image(const ParamReader& params, const std::file
 const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context) {
   const Param* file = params.given("filename");
   if (!file) return nullptr;
-  const auto [entry, is_new] = context.data.environment_of.try_emplace(image_key(params, context.folder), nullptr);
+  const auto [entry, is_new] =
+      context.data.environment_of.try_emplace(light_image_key(params, context.folder), nullptr);
   if (entry->second || !is_new) return entry->second;
   const std::optional<Image> image = read_light_image(params, context.folder, context.data);
   if (!image) return nullptr;

@@ -63,6 +63,8 @@ class EnvironmentMap {
   Spectrum integral_;
 };
 
+// Which image of which file a light with a "filename" means.
+std::filesystem::path light_image_key(const ParamReader& params, const std::filesystem::path& folder);
 // Reads the image of a light's "filename", with finite values. Reports what keeps it from being one, and then gives
 // nothing.
 std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,

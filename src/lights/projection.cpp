@@ -15,9 +15,8 @@ std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const
   const double fov = p.number("fov");
   const bool flat = !(fov < 180.0);
   if (flat) p.diagnostics().error(p.given("fov")->value_loc, "the field of view must be below 180 degrees");
-  const Param* file = p.given("filename");
-  if (!file) return {};
-  const auto [entry, is_new] = context.data.slide_of.try_emplace({context.folder / file->strings[0], fov});
+  if (!p.given("filename")) return {};
+  const auto [entry, is_new] = context.data.slide_of.try_emplace({light_image_key(p, context.folder), fov});
   LightData::Slide& slide = entry->second;
   if (is_new)
     if (std::optional<Image> image = read_light_image(p, context.folder, context.data))
