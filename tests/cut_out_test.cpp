@@ -88,7 +88,7 @@ TEST(CutOut, PngHoldsColoursThatAreNotMultiplied) {
   CutOut cut = cut_out(image);
   EXPECT_EQ(cut.note + cut.error, "");
   divide_by_alpha(cut);
-  const ImageResult read = read_image(path, {ImageEncoding::Kind::kLinear, 1});
+  const ImageResult read = read_image(path, {ImageEncoding{ImageEncoding::Kind::kLinear, 1}, ""});
   ASSERT_TRUE(read.image) << read.error;
   ASSERT_EQ(read.image->channels(), 4);
   const float scale = std::exp2(0.5f);
