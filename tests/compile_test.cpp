@@ -15,15 +15,16 @@ const std::string kTriangle = "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 
 const std::string kLight = "AreaLightSource \"diffuse\" \"rgb L\" [ 2 2 2 ] ";
 
 std::unique_ptr<Scene> compile_world(const std::string& world, Diagnostics& diagnostics,
-                                     const std::filesystem::path& folder = {}) {
+                                     const std::filesystem::path& folder = {}, const std::string& camera = "") {
   const SceneDescription d =
-      read_pbrt_text("Camera \"perspective\"\nWorldBegin\n" + world, "test", folder, diagnostics);
+      read_pbrt_text(camera + "Camera \"perspective\"\nWorldBegin\n" + world, "test", folder, diagnostics);
   return compile(d, {64, 64}, diagnostics);
 }
 
-std::unique_ptr<Scene> scene_of(const std::string& world) {
+// `camera`: transforms in front of it.
+std::unique_ptr<Scene> scene_of(const std::string& world, const std::string& camera = "") {
   Diagnostics diagnostics;
-  auto scene = compile_world(world, diagnostics);
+  auto scene = compile_world(world, diagnostics, {}, camera);
   EXPECT_TRUE(scene) << diagnostics.format_all();
   return scene;
 }
@@ -124,7 +125,10 @@ TEST(Compile, EmittersInObjectsBecomeLightsOfTheWorld) {
       met[light] = true;
     }
   EXPECT_EQ(met, (std::vector<bool>{true, true, true}));
-  EXPECT_FLOAT_EQ(scene->light_sampler.probability(1), 1 / 3.0f);
+  for (const Light& light : scene->lights) EXPECT_FLOAT_EQ(light.power()[0], scene->lights[0].power()[0]);
+  float all = 0;
+  for (uint32_t light = 0; light < 3; ++light) all += scene->light_sampler.probability(light);
+  EXPECT_FLOAT_EQ(all, 1);
 }
 
 TEST(Compile, LightsOfMeshesFollowTheirTriangles) {
@@ -157,13 +161,14 @@ TEST(Compile, FarScenesKeepTheirLocalGeometry) {
       "Shape \"trianglemesh\" \"point3 P\" [ 0.1 0.2 0.3  1.7 0.1 0  0 1.9 0.4 ] Translate 0.3 0.2 -1 "
       "Shape \"sphere\" \"float radius\" 0.1\n"
       "ObjectInstance \"o\" Translate 0 2 0 Rotate 30 1 2 3 ObjectInstance \"o\"\n";
-  const auto here = scene_of(object + local), there = scene_of(object + "Translate 1e6 -2e6 3e6\n" + local);
+  const auto here = scene_of(object + local);
+  const auto there = scene_of(object + "Translate 1e6 -2e6 3e6\n" + local, "Translate -1e6 2e6 -3e6\n");
   EXPECT_NEAR(length(there->origin - here->origin - Vec3d{1e6, -2e6, 3e6}), 0, 1e-6);
   ASSERT_EQ(here->geometry.meshes.size(), there->geometry.meshes.size());
   for (size_t m = 0; m < here->geometry.meshes.size(); ++m)
     for (size_t i = 0; i < 3; ++i)
       EXPECT_LT(length(here->geometry.meshes[m].positions[i] - there->geometry.meshes[m].positions[i]), 1e-6f);
-  EXPECT_LT(length(here->geometry.quadrics[0].to_world.t - there->geometry.quadrics[0].to_world.t), 1e-6f);
+  EXPECT_LT(length(here->geometry.quadrics[0].to_world.t - there->geometry.quadrics[0].to_world.t), 1e-6);
   for (size_t i = 0; i < 2; ++i)
     EXPECT_LT(length(here->geometry.instances[i].to_world.t - there->geometry.instances[i].to_world.t), 1e-6f);
   const Point3 middle = there->geometry.meshes[0].positions[0];

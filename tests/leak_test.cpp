@@ -191,7 +191,7 @@ TEST(Leak, ConvexBodiesDoNotMeetTheirOwnRays) {
     const Accelerator accel(g);
     uint64_t hits = 0;
     for (uint32_t i = 0; i < 50000; ++i) {
-      Vec3 n;
+      Vec3d n;
       const SurfacePoint s =
           c < 10 ? sample_triangle(g.meshes[0], i % 12, uniform(h)) : sample_quadric(g.quadrics[0], uniform(h), &n);
       const Vec3 w = cosine_direction(s.ng, h);
@@ -240,7 +240,7 @@ TEST(Leak, SpheresAreCrossedOnce) {
     }();
     const Accelerator accel(g);
     for (int i = 0; i < 100000; ++i) {
-      Vec3 n;
+      Vec3d n;
       const SurfacePoint in = sample_quadric(g.quadrics[0], uniform(h), &n);
       const Vec3 w = -cosine_direction(in.ng, h);
       Hit hit;

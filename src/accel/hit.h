@@ -16,7 +16,7 @@ struct Hit {
   uint32_t primitive = kNoId;  // triangle or patch of the mesh, or index of the quadric
   uint32_t instance = kNoId;   // kNoId: in the world itself
   float u = 0, v = 0;          // barycentrics b1, b2 of a triangle; u and v of a patch
-  Vec3 q;                      // of a quadric: the point of its unit shape
+  Vec3 offset;                 // of a quadric: on its unit shape, from its anchor
 
   bool on_quadric() const { return geometry == kQuadricGeometry; }
   bool on_patch() const { return geometry >= kFirstPatchGeometry && geometry < kQuadricGeometry; }

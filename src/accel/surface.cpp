@@ -18,7 +18,10 @@ SurfacePoint point_on_patches(const PatchMesh& patches, const Hit& hit, const Pl
 }
 
 SurfacePoint point_in_object(const Geometry& geometry, const Hit& hit, const Placement* instance) {
-  if (hit.on_quadric()) return quadric_point(geometry.quadrics[hit.primitive], hit.q);
+  if (hit.on_quadric()) {
+    const Quadric& quadric = geometry.quadrics[hit.primitive];
+    return quadric_point(quadric, quadric.unit_point_at(hit.offset));
+  }
   if (hit.on_patch()) return point_on_patches(geometry.patch_meshes[hit.patch_mesh()], hit, instance);
   return point_on_mesh(geometry.meshes[hit.geometry], hit, instance);
 }

@@ -24,6 +24,12 @@ struct Bounds3 {
   }
   Vec3d diagonal() const { return hi - lo; }
   Point3d center() const { return lo + (hi - lo) * 0.5; }
+  // The point of the box that is nearest to p; p itself of an empty one.
+  Point3d nearest(Point3d p) const {
+    if (empty()) return p;
+    for (int i = 0; i < 3; ++i) p[i] = std::min(std::max(p[i], lo[i]), hi[i]);
+    return p;
+  }
 };
 
 // A ball with everything that rays can meet inside of it.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,16 @@ struct MeshData {
   // Positions and normals hold the vertices of so many moments, one after the other.
   uint32_t motion_steps = 1;
 };
+
+// Leaves out the vertices that are no corner of any face: they would count where the mesh is measured. `corners` are
+// the indices of all faces, which are renumbered.
+void drop_unused_vertices(MeshData& mesh, std::span<uint32_t> corners);
+
+// The corners of faces of N each.
+template <size_t N>
+std::span<uint32_t> corners_of(std::vector<std::array<uint32_t, N>>& faces) {
+  return {faces.empty() ? nullptr : faces[0].data(), N * faces.size()};
+}
 
 // What reading a mesh file gave: the mesh, or every problem found ("line 12: vertex index 99 is out of range ...").
 struct MeshResult {

@@ -102,25 +102,23 @@ std::optional<RectangleSurface::View> RectangleSurface::seen_from(Point3 p) cons
 }
 
 QuadricSurface::QuadricSurface(const Quadric& quadric) : quadric_(&quadric), ball_radius_(length(quadric.to_world.x)) {
-  const Affine& m = quadric.to_world;
-  const float r2 = sqr(ball_radius_), tolerance = 1e-5f * r2;
-  const auto differ = [tolerance](float a, float b) { return !(std::abs(a - b) <= tolerance); };
+  const Affine3d& m = quadric.to_world;
+  const double r2 = sqr(ball_radius_), tolerance = 1e-5 * r2;
+  const auto differ = [tolerance](double a, double b) { return !(std::abs(a - b) <= tolerance); };
   if (!quadric.part.is_full_sphere() || differ(dot(m.y, m.y), r2) || differ(dot(m.z, m.z), r2) ||
       differ(dot(m.x, m.y), 0) || differ(dot(m.y, m.z), 0) || differ(dot(m.z, m.x), 0))
-    ball_radius_ = 0.0f;
+    ball_radius_ = 0.0;
 }
 
 std::optional<QuadricSurface::View> QuadricSurface::seen_from(Point3 p) const {
-  if (!(ball_radius_ > 0.0f)) return {};
-  const Vec3 c = quadric_->to_world.t;
-  const auto cap = SphericalCap::seen_from(to_double(p), {c.x, c.y, c.z}, static_cast<double>(ball_radius_));
+  if (!(ball_radius_ > 0.0)) return {};
+  const auto cap = SphericalCap::seen_from(to_double(p), Point3d{} + quadric_->to_world.t, ball_radius_);
   if (!cap) return {};
   return View{*this, *cap};
 }
 
 SurfacePoint QuadricSurface::View::sample(Vec2 u) const {
-  const Vec3 n = to_float(seen.sample_normal(u));
-  return quadric_point(*surface.quadric_, normalize(surface.quadric_->to_object.vector(n)));
+  return quadric_point(*surface.quadric_, normalize(surface.quadric_->to_object.vector(seen.sample_normal(u))));
 }
 
 namespace {

@@ -85,7 +85,7 @@ class QuadricSurface {
 
   float area() const { return quadric_area(*quadric_); }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
-    Vec3 q;
+    Vec3d q;
     const SurfacePoint s = sample_quadric(*quadric_, u, &q);
     pdf_area = quadric_pdf_area(*quadric_, q);
     return s;
@@ -103,7 +103,7 @@ class QuadricSurface {
 
  private:
   const Quadric* quadric_;
-  float ball_radius_;  // 0: it is none
+  double ball_radius_;  // 0: it is none
 };
 
 // One bilinear patch of a mesh that stays in place while the light lives.

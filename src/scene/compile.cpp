@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cameras/shutter.h"
+#include "scene/check_precision.h"
 #include "scene/check_transform.h"
 #include "scene/compile_geometry.h"
 #include "scene/compile_lights.h"
@@ -154,7 +155,8 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   for (const TextureDesc& t : description.textures) ++scene->summary.textures[t.use.model];
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
-  compile_geometry(description, material_of, textures, files.shapes, *scene, diagnostics);
+  const Viewpoint view = viewpoint_of(description, options);
+  compile_geometry(description, view, material_of, textures, files.shapes, *scene, diagnostics);
   textures.recentre(scene->origin);
   load_images(options, textures, files, *scene, diagnostics);
 
@@ -171,8 +173,9 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
 
   warn_if_nothing_shows(*scene, diagnostics);
   scene->light_data.kept = nullptr;
-  scene->light_sampler = LightSampler(scene->lights);
+  scene->light_sampler = LightSampler(scene->lights, LightChoice::kPower, to_float(view.position - scene->origin));
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
+  check_precision(*scene, options.width, options.height, diagnostics);
   return scene;
 }
 

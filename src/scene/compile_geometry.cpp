@@ -8,7 +8,9 @@
 #include "scene/check_transform.h"
 #include "scene/compile_lights.h"
 #include "scene/place.h"
+#include "scene/place_vertices.h"
 #include "scene/registry.h"
+#include "shapes/cut_triangles.h"
 #include "shapes/shape.h"
 
 namespace etd {
@@ -16,6 +18,8 @@ namespace etd {
 namespace {
 
 constexpr int kMoments = 17;  // at which bounds of what moves are taken
+// Edges that much longer than the distance are met two thousandths of it off (shapes/cut_triangles.h): pixels.
+constexpr double kLongestUncut = 4096;
 
 // A shape that is a light.
 struct Emitter {
@@ -26,12 +30,19 @@ struct Emitter {
   const AnimatedTransform* motion = nullptr;  // of its space; null: that is the world
 };
 
+// A space of which rays meet the shapes, as its coordinates are in the description.
+struct Space {
+  Vec3d origin;    // that becomes 0, before coordinates round to float
+  Point3d viewer;  // where the camera is
+};
+
 class GeometryCompiler {
  public:
-  GeometryCompiler(const SceneDescription& description, const std::vector<uint32_t>& material_of,
+  GeometryCompiler(const SceneDescription& description, const Viewpoint& view, const std::vector<uint32_t>& material_of,
                    const TextureBuilder& textures, std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene,
                    Diagnostics& diagnostics)
       : description_(description),
+        view_(view),
         material_of_(material_of),
         textures_(textures),
         loaded_(loaded),
@@ -45,11 +56,10 @@ class GeometryCompiler {
     placed_ = place_shapes(description_);
     measure();
     if (diagnostics_.has_errors()) return;
-    const Point3d center = scene_.summary.bounds.empty() ? Point3d{} : scene_.summary.bounds.center();
-    scene_.origin = {center.x, center.y, center.z};
+    scene_.origin = scene_.summary.bounds.nearest(view_.position) - Point3d{};
     reserve();
     scene_.names.objects = std::move(placed_.objects);
-    add_all(placed_.world, scene_.origin, scene_.geometry.groups[0], true);
+    add_all(placed_.world, {scene_.origin, view_.position}, scene_.geometry.groups[0], true);
     add_groups();
     add_lights();
   }
@@ -184,18 +194,19 @@ class GeometryCompiler {
 
   // `may_emit`: the group is in one place alone. Surfaces of invisible lights are there for sampling, in a group that
   // nothing refers to; they come last, because a group's quadrics stand in a row.
-  void add_all(const std::vector<PlacedShape>& shapes, Vec3d origin, GeometryGroup& group, bool may_emit) {
+  void add_all(const std::vector<PlacedShape>& shapes, const Space& space, GeometryGroup& group, bool may_emit) {
     GeometryGroup unseen;
     for (const PlacedShape& s : shapes)
-      if (!is_invisible(s)) add(s, origin, group, may_emit);
+      if (!is_invisible(s)) add(s, space, group, may_emit);
     for (const PlacedShape& s : shapes)
-      if (is_invisible(s)) add(s, origin, unseen, may_emit);
+      if (is_invisible(s)) add(s, space, unseen, may_emit);
   }
 
-  void add(const PlacedShape& placed, Vec3d origin, GeometryGroup& group, bool may_emit) {
+  void add(const PlacedShape& placed, const Space& space, GeometryGroup& group, bool may_emit) {
     const auto it = loaded_.find(placed.shape);
     if (it == loaded_.end()) return;
-    const Transform to_space = Transform::translate(-origin) * placed.to_space;
+    const Transform to_space = Transform::translate(-space.origin) * placed.to_space;
+    const Point3d viewer = space.viewer - space.origin;
     SurfaceBinding binding;
     binding.material = material_of_[static_cast<size_t>(placed.shape->material + 1)];
     binding.shape = static_cast<uint32_t>(scene_.names.shapes.size());
@@ -211,18 +222,15 @@ class GeometryCompiler {
     if (it->second.mesh) {
       emitter = {placed.shape, Emitter::Kind::kMesh, static_cast<uint32_t>(scene_.geometry.meshes.size())};
       group.meshes.push_back(emitter.index);
-      scene_.geometry.meshes.push_back(place_vertices<Mesh>(*it->second.mesh, to_space, reverse));
-      scene_.geometry.meshes.back().triangles = it->second.mesh->triangles;
-      scene_.geometry.meshes.back().motion_steps = it->second.mesh->motion_steps;
+      scene_.geometry.meshes.push_back(place_mesh(*it->second.mesh, to_space, reverse, viewer));
       scene_.moves |= it->second.mesh->motion_steps > 1;
+      warn_if_coarse(*placed.shape, scene_.geometry.meshes.back(), viewer);
       scene_.mesh_bindings.push_back(binding);
       scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
     } else if (it->second.patches) {
       emitter = {placed.shape, Emitter::Kind::kPatches, static_cast<uint32_t>(scene_.geometry.patch_meshes.size())};
       group.patch_meshes.push_back(emitter.index);
-      scene_.geometry.patch_meshes.push_back(
-          place_vertices<PatchMesh>(it->second.patches->vertices, to_space, reverse));
-      scene_.geometry.patch_meshes.back().patches = it->second.patches->patches;
+      scene_.geometry.patch_meshes.push_back(place_patches(*it->second.patches, to_space, reverse, viewer));
       scene_.patch_bindings.push_back(binding);
     } else {
       emitter.index = static_cast<uint32_t>(scene_.geometry.quadrics.size());
@@ -234,21 +242,14 @@ class GeometryCompiler {
     if (may_emit && placed.shape->area_light >= 0) emitters_.push_back(emitter);
   }
 
-  // A Mesh or PatchMesh with everything but its faces.
-  template <class M>
-  static M place_vertices(const MeshData& data, const Transform& t, bool reverse) {
-    M mesh;
-    mesh.positions.reserve(data.positions.size() + 1);  // the accelerator may read a little beyond the last vertex
-    for (const Point3d& p : data.positions) mesh.positions.push_back(to_float(t.point(p)));
-    mesh.normals.reserve(data.normals.size());
-    for (const Vec3& n : data.normals) {
-      const Vec3d m = t.normal(to_double(reverse ? -n : n));
-      const double l = length(m);
-      mesh.normals.push_back(l > 0 && std::isfinite(l) ? to_float(m * (1.0 / l)) : Vec3{});
-    }
-    mesh.uvs = data.uvs;
-    mesh.flip_ng = reverse != (t.determinant3() < 0);
-    return mesh;
+  // Meshes that deform are not cut into smaller faces where these come much too near to the camera.
+  void warn_if_coarse(const ShapeDesc& shape, const Mesh& mesh, Point3d viewer) {
+    if (mesh.motion_steps > 1 && has_coarse_triangles(mesh, viewer, kLongestUncut))
+      diagnostics_.warning(shape.use.loc,
+                           fmt::format("a face of this {} is over {:g} times larger than its distance from the camera, "
+                                       "and what is seen of it may be in the wrong place",
+                                       shape.use.model, kLongestUncut),
+                           "make it of smaller faces near the camera");
   }
 
   void add_groups() {
@@ -257,21 +258,34 @@ class GeometryCompiler {
     for (size_t g = 0; g < placed_.groups.size(); ++g) {
       const ShapeGroup& shapes = placed_.groups[g];
       const Bounds3& local = group_bounds_[g];
-      const Vec3d origin = (local.empty() ? Point3d{} : local.center()) - Point3d{};
+      const Space space = group_space(shapes, local);
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
       const size_t before = scene_.summary.triangles, first_emitter = emitters_.size();
-      add_all(shapes.shapes, origin, group, !shapes.is_shared);
+      add_all(shapes.shapes, space, group, !shapes.is_shared);
       triangles_seen += (scene_.summary.triangles - before) * shapes.instances.size();
       const auto index = static_cast<uint32_t>(scene_.geometry.groups.size());
       scene_.geometry.groups.push_back(std::move(group));
-      const double size = local.empty() ? 0.0 : 0.5 * length(local.diagonal());
-      for (const PlacedGroup& i : shapes.instances) add_instance(index, recentre.then(i.to_world), origin, size);
+      const double size = local.empty() ? 0.0 : length(local.diagonal());
+      for (const PlacedGroup& i : shapes.instances) add_instance(index, recentre.then(i.to_world), space.origin, size);
       for (const PlacedGroup& i : shapes.instances) scene_.instance_objects.push_back(static_cast<uint32_t>(i.object));
       for (size_t e = first_emitter; e < emitters_.size(); ++e)
         emitters_[e].motion = scene_.geometry.instances.back().motion;
     }
     scene_.summary.instanced_triangles = triangles_seen;
+  }
+
+  // As for the world, the origin is the point nearest to the viewer; among several instances, as the nearest of them
+  // has it.
+  Space group_space(const ShapeGroup& group, const Bounds3& local) const {
+    Space space;
+    double least = std::numeric_limits<double>::infinity();
+    for (const PlacedGroup& i : group.instances) {
+      const Point3d viewer = i.to_world.at(view_.time).inverse().point(view_.position), nearest = local.nearest(viewer);
+      const double distance = length(nearest - viewer);
+      if (distance < least) least = distance, space = {nearest - Point3d{}, viewer};
+    }
+    return space;
   }
 
   // Shapes of the group are given from `origin`, from which they are at most `size` away.
@@ -308,6 +322,7 @@ class GeometryCompiler {
   }
 
   const SceneDescription& description_;
+  const Viewpoint view_;
   const std::vector<uint32_t>& material_of_;
   const TextureBuilder& textures_;
   std::map<const ShapeDesc*, ShapeGeometry>& loaded_;
@@ -322,10 +337,10 @@ class GeometryCompiler {
 
 }  // namespace
 
-void compile_geometry(const SceneDescription& description, const std::vector<uint32_t>& material_of,
-                      const TextureBuilder& textures, std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene,
-                      Diagnostics& diagnostics) {
-  GeometryCompiler(description, material_of, textures, loaded, scene, diagnostics).run();
+void compile_geometry(const SceneDescription& description, const Viewpoint& view,
+                      const std::vector<uint32_t>& material_of, const TextureBuilder& textures,
+                      std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene, Diagnostics& diagnostics) {
+  GeometryCompiler(description, view, material_of, textures, loaded, scene, diagnostics).run();
 }
 
 }  // namespace etd

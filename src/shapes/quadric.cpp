@@ -9,13 +9,9 @@ namespace {
 
 using Kind = QuadricPart::Kind;
 
-constexpr float kEdgeDistance = 0x1p-20f;
+constexpr double kEdgeDistance = 0x1p-20;
 
-Vec3d vector_in_double(const Affine& a, Vec3d v) {
-  return to_double(a.x) * v.x + to_double(a.y) * v.y + to_double(a.z) * v.z;
-}
-Vec3d point_in_double(const Affine& a, Vec3d p) { return to_double(a.t) + vector_in_double(a, p); }
-Vec3d as_vector(Point3 p) { return {p.x, p.y, p.z}; }
+Vec3d as_vector(Point3d p) { return p - Point3d{}; }
 
 // Angle around z in [0, 2 pi).
 template <class T>
@@ -24,9 +20,11 @@ T azimuth(T x, T y) {
   return phi < 0 ? phi + static_cast<T>(2 * M_PI) : phi;
 }
 
-// Whether a point of the whole unit shape belongs to the part, or lies within `slack` of it.
-bool is_inside(const QuadricPart& part, double slack, Vec3d q) {
+// Whether a point of the whole unit shape belongs to the part, or lies no further from it than rounding may take it.
+bool is_inside(const Quadric& quadric, Vec3d q) {
+  const QuadricPart& part = quadric.part;
   if (part.is_full_sphere()) return true;
+  const double slack = quadric.unit_error(q);
   const double r = std::sqrt(q.x * q.x + q.y * q.y), along = part.kind == Kind::kDisk ? r : q.z;
   if (!(along >= part.lo - slack && along <= part.hi + slack)) return false;
   if (part.is_full_circle()) return true;
@@ -50,51 +48,45 @@ Bounds3 box_around(const QuadricPart& part, Vec3d x, Vec3d y, Vec3d z, Vec3d t) 
   return box;
 }
 
-// How far rounding may take a point of the surface from where it should be, in unit coordinates: with u = 2^-24,
-// u |M^-1| |p| from rounding p, u |M^-1| (|p| + |t|) from the entries of M, the same from those of the inverse.
-// Factor 4.
-float unit_error(const Quadric& quadric, Point3 p) {
-  const Affine& m = quadric.to_object;
-  const Vec3 size = abs(p - Point3{}) + abs(quadric.to_world.t);
-  const Vec3 error = abs(m.x) * size.x + abs(m.y) * size.y + abs(m.z) * size.z;
-  return 0x1p-22f * (std::max(error.x, std::max(error.y, error.z)) + 1.0f);
-}
-
-// Keeps q away from the edges of the part.
-Vec3 away_from_edges(const QuadricPart& part, float error, Vec3 q) {
-  if (part.is_full_sphere()) return q;
-  const auto keep = [error](float x, float lo, float hi, bool at_lo, bool at_hi) {
-    const float inset = std::min(std::max(kEdgeDistance, 4 * error), 0.125f * (hi - lo));
+// Keeps q away from the edges of the part: by a share of the shape, or of the distance from the anchor where that is
+// much less.
+Vec3d away_from_edges(const Quadric& quadric, Vec3d q) {
+  const QuadricPart& part = quadric.part;
+  const double share = kEdgeDistance * std::min(1.0, 64 * max_component(abs(q - quadric.anchor)));
+  const double wanted = std::max(share, 4 * quadric.unit_error(q));
+  const auto keep = [wanted](double x, double lo, double hi, bool at_lo, bool at_hi) {
+    const double inset = std::min(wanted, 0.125 * (hi - lo));
     if (at_lo) x = std::max(x, lo + inset);
     return at_hi ? std::min(x, hi - inset) : x;
   };
-  float r = std::sqrt(q.x * q.x + q.y * q.y);
-  float scale = 1;
+  const double lo = double{part.lo}, hi = double{part.hi}, phi_max = double{part.phi_max};
+  double r = std::sqrt(q.x * q.x + q.y * q.y);
+  double scale = 1;
   if (part.kind == Kind::kDisk) {
-    const float kept = keep(r, part.lo, part.hi, part.lo > 0, true);
-    scale = r > 0 ? kept / r : 1.0f;
+    const double kept = keep(r, lo, hi, part.lo > 0, true);
+    scale = r > 0 ? kept / r : 1.0;
     r = kept;
   } else if (part.kind == Kind::kCylinder) {
-    q.z = keep(q.z, part.lo, part.hi, true, true);
+    q.z = keep(q.z, lo, hi, true, true);
   } else {
-    const float z = keep(q.z, part.lo, part.hi, part.lo > -1, part.hi < 1);
-    const float kept = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
+    const double z = keep(q.z, lo, hi, part.lo > -1, part.hi < 1);
+    const double kept = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
     if (z != q.z && r > 0) scale = kept / r, q.z = z;
   }
   if (scale != 1) q.x *= scale, q.y *= scale;
   if (part.is_full_circle() || !(r > 0)) return q;
   // A point beyond the first edge has an angle just under a full turn.
-  float phi = azimuth(q.x, q.y);
-  if (phi > part.phi_max && 2 * kPi - phi < phi - part.phi_max) phi = 0;
-  const float kept = keep(phi, 0, part.phi_max, true, true);
-  return kept == phi ? q : Vec3{r * std::cos(kept), r * std::sin(kept), q.z};
+  double phi = azimuth(q.x, q.y);
+  if (phi > phi_max && 2 * M_PI - phi < phi - phi_max) phi = 0;
+  const double kept = keep(phi, 0, phi_max, true, true);
+  return kept == phi ? q : Vec3d{r * std::cos(kept), r * std::sin(kept), q.z};
 }
 
 // Of a whole ellipsoid.
-double ellipsoid_area(const Affine& m) {
+double ellipsoid_area(const Affine3d& m) {
   // Semi-axes a >= b >= c are the singular values of the linear part: eigenvalues of its Gram matrix G by the
   // trigonometric solution (Smith 1961), c from the determinant, which keeps it exact for flat ellipsoids.
-  const Vec3d x = to_double(m.x), y = to_double(m.y), z = to_double(m.z);
+  const Vec3d x = m.x, y = m.y, z = m.z;
   const double mean = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0;
   const double gx = dot(x, x) - mean, gy = dot(y, y) - mean, gz = dot(z, z) - mean;
   const double xy = dot(x, y), xz = dot(x, z), yz = dot(y, z);
@@ -121,22 +113,45 @@ float QuadricPart::area() const {
   return kind == Kind::kDisk ? 0.5f * phi_max * (hi - lo) * (hi + lo) : phi_max * (hi - lo);
 }
 
+// The inverse is taken of the composed map: that of a long chain of transforms need not belong to their product.
 Quadric::Quadric(const Transform& unit_to_world, bool flip, const QuadricPart& which)
-    : to_world(unit_to_world.matrix()), to_object(unit_to_world.inverse_matrix()), flip_ng(flip), part(which) {
-  const Bounds3 box = bounds();
-  for (const Point3d corner : {box.lo, box.hi}) edge_slack = std::max(edge_slack, unit_error(*this, to_float(corner)));
+    : to_world(unit_to_world.matrix()),
+      to_object(Transform(unit_to_world.matrix()).inverse_matrix()),
+      flip_ng(flip),
+      part(which) {
+  anchor = on_unit_shape(to_object.t);
+  if (part.kind == Kind::kDisk) {
+    const double r = length(anchor);
+    if (r > double{part.hi}) anchor = anchor * (double{part.hi} / r);
+  }
+  if (part.kind == Kind::kCylinder) anchor.z = std::min(std::max(anchor.z, double{part.lo}), double{part.hi});
+  if (!is_finite(anchor)) anchor = {};
+  // Rounding moves p by u |p|, u = 2^-24, which is u |M^-1| |p| in unit coordinates, and |p| is at most what it is at
+  // the anchor and |M| |q - anchor|. Factor 4.
+  const Affine3d &m = to_world, &inverse = to_object;
+  const auto magnitude = [](const Affine3d& a, Vec3d v) { return abs(a.x) * v.x + abs(a.y) * v.y + abs(a.z) * v.z; };
+  const Vec3d p = as_vector(m.point({anchor.x, anchor.y, anchor.z}));
+  anchor_error_ = 0x1p-22 * max_component(magnitude(inverse, abs(p))) + 0x1p-50;
+  error_slope_ = 0x1p-22 * max_component(magnitude(inverse, magnitude(m, {1, 1, 1})));
+}
+
+Vec3d Quadric::on_unit_shape(Vec3d q) const {
+  if (part.kind == Kind::kDisk) return {q.x, q.y, 0};
+  if (part.kind == Kind::kSphere) return normalize(q);
+  const double scale = 1.0 / std::sqrt(q.x * q.x + q.y * q.y);
+  return {q.x * scale, q.y * scale, q.z};
 }
 
 std::optional<Quadric::Intersection> Quadric::intersect(Point3 o, Vec3 d, float t_max, float t_min) const {
-  const Vec3d oo = point_in_double(to_object, as_vector(o));
-  const Vec3d dd = vector_in_double(to_object, to_double(d));
+  const Vec3d oo = as_vector(to_object.point(to_double(o)));
+  const Vec3d dd = to_object.vector(to_double(d));
   if (part.kind == Kind::kDisk) {
     const double t = -oo.z / dd.z;
     const float rounded = static_cast<float>(t);
     if (!(rounded > t_min && rounded < t_max)) return {};  // also when dd.z is 0
     const Vec3d q{oo.x + t * dd.x, oo.y + t * dd.y, 0};
-    if (!is_inside(part, edge_slack, q)) return {};
-    return Intersection{rounded, to_float(q)};
+    if (!is_inside(*this, q)) return {};
+    return Intersection{rounded, to_float(q - anchor)};
   }
   // Across the axis of a cylinder the problem is that of a circle.
   const double k = part.kind == Kind::kCylinder ? 0.0 : 1.0;
@@ -159,25 +174,14 @@ std::optional<Quadric::Intersection> Quadric::intersect(Point3 o, Vec3 d, float 
     Vec3d q = nearest + dd * (std::sqrt(h2 / a) * (i == 0 ? -1.0 : 1.0));
     const double scale = 1.0 / std::sqrt(dot_across(q, q));
     q = {q.x * scale, q.y * scale, k == 0.0 ? q.z : q.z * scale};
-    if (is_inside(part, edge_slack, q)) return Intersection{t, to_float(q)};
+    if (is_inside(*this, q)) return Intersection{t, to_float(q - anchor)};
   }
   return {};
 }
 
-Vec3 Quadric::unit_point(Point3 p) const {
-  Vec3d q = point_in_double(to_object, as_vector(p));
-  if (part.kind == Kind::kDisk) q.z = 0;
-  if (part.kind == Kind::kSphere) q = normalize(q);
-  if (part.kind == Kind::kCylinder) {
-    const double scale = 1.0 / std::sqrt(q.x * q.x + q.y * q.y);
-    q.x *= scale, q.y *= scale;
-  }
-  return to_float(q);
-}
+Vec3d Quadric::unit_point(Point3 p) const { return on_unit_shape(as_vector(to_object.point(to_double(p)))); }
 
-Bounds3 Quadric::bounds() const {
-  return box_around(part, to_double(to_world.x), to_double(to_world.y), to_double(to_world.z), to_double(to_world.t));
-}
+Bounds3 Quadric::bounds() const { return box_around(part, to_world.x, to_world.y, to_world.z, to_world.t); }
 
 Bounds3 quadric_bounds(const QuadricPart& part, const Transform& unit_to_space) {
   const auto& m = unit_to_space.matrix().m;
@@ -185,24 +189,20 @@ Bounds3 quadric_bounds(const QuadricPart& part, const Transform& unit_to_space) 
   return box_around(part, column(0), column(1), column(2), column(3));
 }
 
-SurfacePoint quadric_point(const Quadric& quadric, Vec3 hit) {
-  const Affine& to_object = quadric.to_object;
+SurfacePoint quadric_point(const Quadric& quadric, Vec3d hit) {
   const QuadricPart& part = quadric.part;
-  const Vec3 q = part.is_full_sphere() ? hit : away_from_edges(part, unit_error(quadric, quadric.point(hit)), hit);
+  const Vec3d at = part.is_full_sphere() ? hit : away_from_edges(quadric, hit);
   SurfacePoint s;
-  const Vec3d p = point_in_double(quadric.to_world, to_double(q));
-  s.p = to_float(Point3d{p.x, p.y, p.z});
-  s.ng = s.ns = quadric.normal(q);
+  s.p = quadric.point(at);
+  s.ng = s.ns = quadric.normal(at);
 
-  // Distance off the surface is measured by a function f of the unit shape, |q| - 1 for a sphere, whose gradient in the
-  // world has length |M^-T n|. With u = 2^-24 its errors are: rounding p, u |n|.|M^-1||p|; rounding of the map's
-  // entries, the same plus u |n|.|M^-1||t|; that of the inverse, both again; q not lying on the unit shape, 2u. Double
-  // arithmetic adds nothing to these. Factor 4.
-  const Vec3 n = quadric.unit_normal(q), an = abs(n);
-  const Vec3 size = abs(s.p - Point3{}) + abs(quadric.to_world.t);
-  const Vec3 per_axis{dot(abs(to_object.x), an), dot(abs(to_object.y), an), dot(abs(to_object.z), an)};
-  s.p_error = 0x1p-22f * (dot(per_axis, size) + 1.0f) / length(to_object.transposed(n));
+  // Rounding p moves it by u |n|.|p| along the unit normal n, u = 2^-24; factor 2. The distance off the surface is
+  // measured by a function of the unit shape, |q| - 1 for a sphere, whose gradient in the world has length |M^-T n|. Of
+  // its errors in double only those count that do not shrink with p: a few 2^-53, for which 2^-48 stands.
+  const Vec3d gradient = quadric.to_object.transposed(quadric.unit_normal(at));
+  s.p_error = 0x1p-23f * dot(abs(s.ng), abs(s.p - Point3{})) + static_cast<float>(0x1p-48 / length(gradient));
 
+  const Vec3 q = to_float(at);
   const float r = std::sqrt(q.x * q.x + q.y * q.y);
   Vec3 dqdv;  // on the unit shape
   s.uv.x = std::min(azimuth(q.x, q.y) / part.phi_max, 1.0f);
@@ -219,12 +219,12 @@ SurfacePoint quadric_point(const Quadric& quadric, Vec3 hit) {
     s.uv.y = (part.hi - r) / (part.hi - part.lo);
     if (r > 0.0f) dqdv = Vec3{-q.x / r, -q.y / r, 0.0f} * (part.hi - part.lo);
   }
-  s.dpdu = quadric.to_world.vector({-part.phi_max * q.y, part.phi_max * q.x, 0.0f});
-  s.dpdv = quadric.to_world.vector(dqdv);
+  s.dpdu = to_float(quadric.to_world.vector(to_double(Vec3{-part.phi_max * q.y, part.phi_max * q.x, 0.0f})));
+  s.dpdv = to_float(quadric.to_world.vector(to_double(dqdv)));
   return s;
 }
 
-float quadric_area_stretch(const Quadric& quadric, Vec3 q) {
+float quadric_area_stretch(const Quadric& quadric, Vec3d q) {
   return area_stretch(quadric.to_world, quadric.to_object, quadric.unit_normal(q));
 }
 
@@ -240,24 +240,26 @@ float quadric_area(const Quadric& quadric) {
       const float z = part.lo + (part.hi - part.lo) * (static_cast<float>(i) + 0.5f) / static_cast<float>(along);
       const float phi = part.phi_max * (static_cast<float>(j) + 0.5f) / kAround;
       const float r = part.kind == Kind::kSphere ? std::sqrt((1 - z) * (1 + z)) : 1.0f;
-      sum += static_cast<double>(quadric_area_stretch(quadric, {r * std::cos(phi), r * std::sin(phi), z}));
+      sum +=
+          static_cast<double>(quadric_area_stretch(quadric, to_double(Vec3{r * std::cos(phi), r * std::sin(phi), z})));
     }
   return static_cast<float>(part.area() * sum / (along * kAround));
 }
 
-SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3* q) {
+SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3d* q) {
   const QuadricPart& part = quadric.part;
   if (part.is_full_sphere()) {
-    *q = sample_sphere_uniform(u);
-  } else {
-    const float phi = part.phi_max * u.y;
-    const auto between = [&](float lo, float hi) { return lo + (hi - lo) * u.x; };
-    const float z = part.kind == Kind::kDisk ? 0.0f : between(part.lo, part.hi);
-    const float r = part.kind == Kind::kDisk     ? std::sqrt(between(part.lo * part.lo, part.hi * part.hi))
-                    : part.kind == Kind::kSphere ? std::sqrt(std::max(0.0f, (1 - z) * (1 + z)))
-                                                 : 1.0f;
-    *q = {r * std::cos(phi), r * std::sin(phi), z};
+    *q = normalize(to_double(sample_sphere_uniform(u)));
+    return quadric_point(quadric, *q);
   }
+  const double phi = double{part.phi_max} * double{u.y};
+  const auto between = [&](double lo, double hi) { return lo + (hi - lo) * double{u.x}; };
+  const double lo = double{part.lo}, hi = double{part.hi};
+  const double z = part.kind == Kind::kDisk ? 0.0 : between(lo, hi);
+  const double r = part.kind == Kind::kDisk     ? std::sqrt(between(lo * lo, hi * hi))
+                   : part.kind == Kind::kSphere ? std::sqrt(std::max(0.0, (1 - z) * (1 + z)))
+                                                : 1.0;
+  *q = {r * std::cos(phi), r * std::sin(phi), z};
   return quadric_point(quadric, *q);
 }
 

@@ -28,40 +28,50 @@ struct QuadricPart {
   float area() const;  // in the unit shape
 };
 
+// In double, and with hits given from a point near the origin of the space in which rays meet it: on a sphere as large
+// as the Earth, whose surface is all that the scene has of it, floats are half a metre apart.
 struct Quadric {
-  Affine to_world;       // from the unit shape to the space in which rays meet it
-  Affine to_object;      // its inverse
+  Affine3d to_world;     // from the unit shape to the space in which rays meet it
+  Affine3d to_object;    // its inverse
+  Vec3d anchor;          // the point of the unit shape that belongs to the point nearest to the origin, about
   bool flip_ng = false;  // ReverseOrientation: normals point inward, that of a disk to -z
   QuadricPart part;
-  // How far beyond its edges the part is met, in unit coordinates: more than rounding of the maps can open a gap to a
-  // neighbour with the same edge.
-  float edge_slack = 0;
 
   Quadric() = default;
   Quadric(const Transform& unit_to_world, bool flip, const QuadricPart& which = {});
 
   struct Intersection {
     float t;
-    Vec3 q;  // unit-shape point that was hit
+    Vec3 offset;  // from the anchor to the unit-shape point that was hit
   };
-  // The nearest intersection with t_min < t < t_max along o + t d, all roots tried; robust for far and tiny shapes.
+  // The nearest intersection with t_min < t < t_max along o + t d, all roots tried; robust for far and tiny shapes. A
+  // part is met a little beyond its edges, so that rounding opens no gap to a neighbour with the same edge.
   std::optional<Intersection> intersect(Point3 o, Vec3 d, float t_max, float t_min = 0) const;
+  // What `offset` stands for.
+  Vec3d unit_point_at(Vec3 offset) const { return on_unit_shape(anchor + to_double(offset)); }
 
-  Point3 point(Vec3 q) const { return to_world.point({q.x, q.y, q.z}); }
+  Point3 point(Vec3d q) const { return to_float(to_world.point({q.x, q.y, q.z})); }
   // Geometric normal at a unit-shape point, outward unless flipped.
-  Vec3 normal(Vec3 q) const {
-    const Vec3 ng = normalize(to_object.transposed(unit_normal(q)));
+  Vec3 normal(Vec3d q) const {
+    const Vec3 ng = to_float(normalize(to_object.transposed(unit_normal(q))));
     return flip_ng ? -ng : ng;
   }
   // Normal of the unit shape, outward.
-  Vec3 unit_normal(Vec3 q) const {
+  Vec3d unit_normal(Vec3d q) const {
     if (part.kind == QuadricPart::Kind::kDisk) return {0, 0, 1};
-    return part.kind == QuadricPart::Kind::kCylinder ? Vec3{q.x, q.y, 0} : q;
+    return part.kind == QuadricPart::Kind::kCylinder ? Vec3d{q.x, q.y, 0} : q;
   }
   // The point of the unit shape that belongs to a point of the surface.
-  Vec3 unit_point(Point3 p) const;
+  Vec3d unit_point(Point3 p) const;
+  // How far rounding may take the point at q from where it should be along the surface, in unit coordinates.
+  double unit_error(Vec3d q) const { return anchor_error_ + error_slope_ * max_component(abs(q - anchor)); }
   // A box around the surface; not tight for cut spheres.
   Bounds3 bounds() const;
+
+ private:
+  Vec3d on_unit_shape(Vec3d q) const;
+
+  double anchor_error_ = 0, error_slope_ = 0;
 };
 
 // The same box before the map is rounded to float.
@@ -71,16 +81,16 @@ Bounds3 quadric_bounds(const QuadricPart& part, const Transform& unit_to_space);
 // triangles are, so that an offset origin does not step across a neighbouring wall. uv as pbrt-v4 has them: u = phi /
 // phi_max, v from 0 at lo to 1 at hi, by polar angle on a sphere and by z on a cylinder; on a disk v is 0 at the rim
 // and 1 inside.
-SurfacePoint quadric_point(const Quadric& quadric, Vec3 q);
+SurfacePoint quadric_point(const Quadric& quadric, Vec3d q);
 
 // How much area of the surface one unit of area of the unit shape covers around q: |det M| |M^-T n|.
-float quadric_area_stretch(const Quadric& quadric, Vec3 q);
+float quadric_area_stretch(const Quadric& quadric, Vec3d q);
 // Area of the surface, for any affine map; relative error 1e-4 at most.
 float quadric_area(const Quadric& quadric);
 // The point for a uniform point of the unit shape's part; its density per area of the surface is
 // quadric_pdf_area(q), q being the unit-shape point returned in *q. Uniform whenever the map keeps shapes similar.
-SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3* q);
-inline float quadric_pdf_area(const Quadric& quadric, Vec3 q) {
+SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3d* q);
+inline float quadric_pdf_area(const Quadric& quadric, Vec3d q) {
   return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));
 }
 

@@ -23,6 +23,8 @@ std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesyst
   for (const ModelDecl* quadric : {&sphere_decl(), &cylinder_decl(), &disk_decl()})
     if (use.model == quadric->name) made.quadric = make_quadric_shape({*quadric, use, diagnostics});
   if (!made.mesh && !made.patches && !made.quadric) return {};
+  if (made.mesh) drop_unused_vertices(*made.mesh, corners_of(made.mesh->triangles));
+  if (made.patches) drop_unused_vertices(made.patches->vertices, corners_of(made.patches->patches));
   return made;
 }
 

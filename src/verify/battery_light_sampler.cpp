@@ -38,16 +38,21 @@ std::vector<CheckResult> check_light_choice(const LightChoiceModel& m) {
     told.add(c->probability == m.probability(c->light) ? 0.0 : 1.0, [&] { return light_examples()[c->light].name; });
     share[c->light] += 1.0 / kSteps;
   }
-  double finite = 0, infinite = 0;
-  for (const Light& l : lights) (l.is_infinite() ? infinite : finite) += static_cast<double>(luminance(l.power()));
+  double finite = 0, infinite = 0, seen = 0;
+  for (const Light& l : lights) {
+    (l.is_infinite() ? infinite : finite) += static_cast<double>(luminance(l.power()));
+    if (!l.is_infinite()) seen += LightSampler::seen(l, {});
+  }
   for (uint32_t i = 0; i < lights.size(); ++i) {
     const auto where = [&] { return light_examples()[i].name; };
     const double p = m.probability(i), power = luminance(lights[i].power());
-    const double of_its_kind = lights[i].is_infinite() ? LightSampler::kInfiniteShare / infinite
-                                                       : (1.0 - LightSampler::kInfiniteShare) / finite;
+    constexpr double kSeen = LightSampler::kSeenShare;
+    const double of_its_kind =
+        lights[i].is_infinite() ? LightSampler::kInfiniteShare * power / infinite
+                                : (1.0 - LightSampler::kInfiniteShare) *
+                                      ((1 - kSeen) * power / finite + kSeen * LightSampler::seen(lights[i], {}) / seen);
     shares.add(std::abs(share[i] - p), where);
-    law.add(std::abs(p - (m.choice == LightChoice::kUniform ? 1.0 / static_cast<double>(lights.size())
-                                                            : of_its_kind * power)),
+    law.add(std::abs(p - (m.choice == LightChoice::kUniform ? 1.0 / static_cast<double>(lights.size()) : of_its_kind)),
             where);
     complete.add(p > 0.0 || power == 0.0 ? 0.0 : 1.0, where);
   }

@@ -26,10 +26,10 @@ struct UserShapes {
   const PatchMesh* patches = nullptr;
 
   Bounds3 bounds(uint32_t i) const { return patches ? patch_bounds(*patches, i) : quadrics[i].bounds(); }
-  // What becomes RTCHit: the unit-shape point of a quadric travels in the place of Embree's normal.
+  // What becomes RTCHit: the offset on a quadric's unit shape travels in the place of Embree's normal.
   struct Found {
     float t;
-    Vec3 q;
+    Vec3 offset;
     float u, v;
   };
   std::optional<Found> intersect(uint32_t i, const RTCRay& ray) const {
@@ -41,7 +41,7 @@ struct UserShapes {
       return found ? std::optional<Found>({found->t, Vec3{}, found->u, found->v}) : std::nullopt;
     }
     const auto found = quadrics[i].intersect(o, d, t_max, t_min);
-    return found ? std::optional<Found>({found->t, found->q, 0.0f, 0.0f}) : std::nullopt;
+    return found ? std::optional<Found>({found->t, found->offset, 0.0f, 0.0f}) : std::nullopt;
   }
 };
 
@@ -65,7 +65,7 @@ void user_intersect(const RTCIntersectFunctionNArguments* args) {
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const auto found = static_cast<const UserShapes*>(args->geometryUserPtr)->intersect(args->primID, query.ray);
   if (!found) return;
-  const Vec3 q = found->q;
+  const Vec3 q = found->offset;
   query.ray.tfar = found->t;
   query.hit = {q.x, q.y, q.z, found->u, found->v, args->primID, args->geomID, {args->context->instID[0]}};
 }
@@ -298,7 +298,7 @@ bool Accelerator::intersect(const Ray& ray, Hit& hit) const {
   } else {
     hit.geometry = kQuadricGeometry;
     hit.primitive = group.quadric_begin + h.primID;
-    hit.q = {h.Ng_x, h.Ng_y, h.Ng_z};
+    hit.offset = {h.Ng_x, h.Ng_y, h.Ng_z};
   }
   return true;
 }

@@ -21,6 +21,7 @@ std::optional<MeshData> read_plain_mesh(const std::filesystem::path& file, const
                                         Diagnostics& diagnostics) {
   MeshResult result = ending == ".ply" ? read_ply(file) : read_off(file);
   report_mesh_problems(result.problems, result.notes, {}, {}, file.string(), diagnostics);
+  if (result.mesh) drop_unused_vertices(*result.mesh, corners_of(result.mesh->triangles));
   return std::move(result.mesh);
 }
 
