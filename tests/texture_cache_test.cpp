@@ -6,8 +6,8 @@
 #include <fstream>
 #include <thread>
 
+#include "core/byte_count.h"
 #include "core/hash.h"
-#include "render/byte_count.h"
 #include "render_helper.h"
 #include "spectrum/srgb.h"
 #include "texture_table.h"

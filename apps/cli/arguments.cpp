@@ -6,11 +6,11 @@
 #include <charconv>
 
 #include "contradictions.h"
+#include "core/byte_count.h"
 #include "formats/foreign.h"
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
 #include "io/gzip.h"
-#include "render/byte_count.h"
 
 namespace etd::cli {
 namespace {
@@ -54,6 +54,18 @@ void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>&
       ->type_name("FILE");
   command.add_flag("--allow-unsupported", args->allow_unsupported,
                    "replace what is not supported yet by named substitutes, with a warning for each");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--limit",
+          [args](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+              if (const std::string problem = set_limit(args->limits, text); !problem.empty())
+                throw CLI::ValidationError("--limit", problem);
+          },
+          "raise what a scene may ask for, as in copies=5000000 (etendue describe limits)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
 }
 
 void add_override_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args) {

@@ -15,10 +15,11 @@ struct SceneArguments {
   std::string scene;
   std::string camera;  // a file that says how to look at it; empty: the scene's own
   bool allow_unsupported = false;
+  Limits limits;
   RenderOverrides overrides;
 };
 
-// SCENE, --camera and --allow-unsupported.
+// SCENE, --camera, --allow-unsupported and --limit.
 void add_scene_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);
 // --size, --spp, --set and the others that change what is rendered.
 void add_override_options(CLI::App& command, const std::shared_ptr<SceneArguments>& args);

@@ -15,7 +15,7 @@ void add_check(CLI::App& app, Run& run) {
   command->footer("Exits with 0 when the scene can be rendered, and with 2 when it has problems.");
   command->callback([args, &run] {
     run = [args]() -> int {
-      Diagnostics diagnostics(args->allow_unsupported);
+      Diagnostics diagnostics(args->allow_unsupported, args->limits);
       const auto prepared = prepare_render(load_scene(*args, diagnostics), args->overrides, diagnostics);
       print_diagnostics(diagnostics);
       if (!prepared) return kBadInput;

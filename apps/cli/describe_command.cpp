@@ -45,13 +45,21 @@ int describe_models(const Arguments& args) {
     answer("{}", pbrt_coverage_markdown());
     return kOk;
   }
+  constexpr std::string_view kLimits = "limits";
+  if (letters(args.family) == kLimits && args.name.empty()) {
+    answer("{}", describe_limits());
+    return kOk;
+  }
   if (args.family.empty()) {
     for (Family family : kAllFamilies) {
       answer("{}\n", family_name(family));
       list(family, 2);
       answer("\n");
     }
-    answer("`etendue describe FAMILY NAME` shows the parameters of one of them.\n");
+    answer(
+        "`etendue describe FAMILY NAME` shows the parameters of one of them, `etendue describe limits` what a scene "
+        "may "
+        "ask for.\n");
     return kOk;
   }
   std::vector<std::string_view> names;
@@ -67,6 +75,7 @@ int describe_models(const Arguments& args) {
     for (const ModelDecl* model : all_models(family)) models.push_back(model->name);
     return unknown(family_name(family), args.name, models);
   }
+  names.push_back(kLimits);
   return unknown("family of models", args.family, names);
 }
 
@@ -76,14 +85,15 @@ void add_describe(CLI::App& app, Run& run) {
   auto args = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("describe", "Show models and their parameters: types, defaults, ranges, units.");
-  command->add_option("family", args->family, "material, light, shape, integrator, ...");
+  command->add_option("family", args->family, "material, light, shape, integrator, ...; or limits");
   command->add_option("name", args->name, "a model of this family");
   command->add_flag("--markdown", args->markdown, "write the page on the coverage of the pbrt-v4 language instead");
   command->footer(
       "Examples:\n"
       "  etendue describe                       every model in one line\n"
       "  etendue describe material              the materials\n"
-      "  etendue describe material conductor    its parameters");
+      "  etendue describe material conductor    its parameters\n"
+      "  etendue describe limits                what a scene may ask for, and --limit raises");
   command->callback([args, &run] { run = [args] { return describe_models(*args); }; });
 }
 

@@ -105,7 +105,7 @@ void add_info(CLI::App& app, Run& run) {
   command->callback([args, &run] {
     run = [args]() -> int {
       if (is_layered_path(args->scene)) return print_image_info(args->scene);
-      Diagnostics diagnostics(args->allow_unsupported);
+      Diagnostics diagnostics(args->allow_unsupported, args->limits);
       const auto prepared = prepare_render(load_scene(*args, diagnostics), args->overrides, diagnostics);
       print_diagnostics(diagnostics);
       if (!prepared) return kBadInput;

@@ -168,7 +168,7 @@ int replay(const Arguments& args) {
   Task task = make_task(args);
   if (!task.error.empty()) return fail(task.error);
 
-  Diagnostics diagnostics(task.scene.allow_unsupported);
+  Diagnostics diagnostics(task.scene.allow_unsupported, args.limits);
   const auto prepared = prepare_render(load_scene(task.scene, diagnostics), task.scene.overrides, diagnostics);
   print_diagnostics(diagnostics);
   if (!prepared) return kBadInput;

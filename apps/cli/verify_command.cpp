@@ -96,7 +96,7 @@ int verify_user_scene(const VerifySceneArguments& args) {
   options.seed = o.seed.value_or(options.seed);
   options.threads = o.threads.value_or(0);
   options.set = o.set;
-  Diagnostics diagnostics(args.scene->allow_unsupported);
+  Diagnostics diagnostics(args.scene->allow_unsupported, args.scene->limits);
   const SceneDescription description = load_scene(*args.scene, diagnostics);
   const InterruptScope interrupts;
   TaskBar bar(args.quiet);

@@ -43,6 +43,7 @@ class TransformPath {
 
   bool moves() const;
   Transform at(double time) const;
+  size_t length() const { return factors_.size(); }
 
  private:
   struct Factor {

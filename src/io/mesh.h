@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "params/limits.h"
 
 namespace etd {
 
@@ -45,9 +46,9 @@ struct MeshResult {
 // PLY: ascii, binary_little_endian and binary_big_endian, any property types and extra elements; faces and triangle
 // strips.
 // Normals nx ny nz; texture coordinates u v, s t, texture_u texture_v or texture_s texture_t.
-MeshResult read_ply(const std::filesystem::path& path);
+MeshResult read_ply(const std::filesystem::path& path, const Limits& limits = {});
 
 // OFF as text: headers OFF, COFF, NOFF, STOFF, 4OFF and their combinations, or none. Colours are read over with a note.
-MeshResult read_off(const std::filesystem::path& path);
+MeshResult read_off(const std::filesystem::path& path, const Limits& limits = {});
 
 }  // namespace etd

@@ -15,6 +15,10 @@ std::string counted(size_t count, std::string_view one, std::string_view many) {
 
 }  // namespace
 
+std::string too_many_corners(const Limits& limits) {
+  return fmt::format("a face of too many corners; {}", limit_text(limits, &Limits::corners));
+}
+
 void MeshLosses::add_notes(std::vector<std::string>& notes) const {
   std::vector<std::string> parts;
   const auto part = [&parts](size_t count, std::string_view one, std::string_view many) {

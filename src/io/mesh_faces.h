@@ -11,6 +11,9 @@
 
 namespace etd {
 
+// What is wrong with a face of too many corners.
+std::string too_many_corners(const Limits& limits);
+
 // What was left out of a mesh, or is drawn in another way than the file says.
 struct MeshLosses {
   size_t small_faces = 0;  // of fewer than three different corners

@@ -41,7 +41,9 @@ class MtlReader {
   void read() {
     while (lines_.next(words_)) {
       if (words_[0] == "newmtl") {
-        result_.materials.emplace_back().name = join_words(words_, 1);
+        const std::string name = join_words(words_, 1);
+        result_.index_of[name] = result_.materials.size();
+        result_.materials.emplace_back().name = name;
         inside_ = true;
         opacity_.reset(), opacity_by_tr_.reset();
       } else if (!inside_) {
@@ -188,13 +190,13 @@ class MtlReader {
 }  // namespace
 
 const ObjMaterial* ObjResult::find(const std::string& name) const {
-  const auto it =
-      std::find_if(materials.rbegin(), materials.rend(), [&](const ObjMaterial& m) { return m.name == name; });
-  return it == materials.rend() ? nullptr : &*it;
+  const auto it = index_of.find(name);
+  return it == index_of.end() ? nullptr : &materials[it->second];
 }
 
-std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result) {
-  const FileBytes file = read_text_file(path);
+std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, const Limits& limits,
+                     ObjResult& result) {
+  const FileBytes file = read_text_file(path, limits);
   if (file.error.empty()) MtlReader(file.bytes, path.filename().string(), folder, result).read();
   return file.error;
 }

@@ -44,8 +44,8 @@ struct PartBuilder {
 class ObjReader {
  public:
   // Without materials, all faces make one part.
-  ObjReader(std::string_view text, std::filesystem::path folder, bool materials)
-      : lines_(text), folder_(std::move(folder)), materials_(materials) {}
+  ObjReader(std::string_view text, std::filesystem::path folder, bool materials, const Limits& limits)
+      : lines_(text), folder_(std::move(folder)), materials_(materials), limits_(limits) {}
   ObjResult read();
 
  private:
@@ -65,6 +65,7 @@ class ObjReader {
   TextLines lines_;
   std::filesystem::path folder_;
   bool materials_;
+  Limits limits_;
   std::vector<std::string_view> words_;
   std::vector<Point3d> positions_;
   std::vector<Vec2> uvs_;
@@ -76,14 +77,16 @@ class ObjReader {
   std::map<std::string, size_t> part_of_;
   size_t part_ = 0;
   bool colours_ = false, no_uvs_ = false;
-  std::set<std::string> unused_, loaded_;
+  std::set<std::string> unused_;
+  std::set<std::filesystem::path> loaded_;
   ProblemList problems_;
   ObjResult result_;
 };
 
 ObjResult ObjReader::read() {
   use_material("");
-  while (lines_.next(words_, true)) statement();
+  // With the keyword, and one word to see that there are more.
+  while (lines_.next(words_, true, limits_.corners + 2)) statement();
   count_vertices();
   if (problems_.empty())
     for (PartBuilder& part : parts_)
@@ -100,6 +103,8 @@ ObjResult ObjReader::read() {
 
 void ObjReader::statement() {
   const std::string_view key = words_[0];
+  if (words_.size() > limits_.corners + 1)
+    return fail(fmt::format("{} has too many values; {}", in_quotes(key), limit_text(limits_, &Limits::corners)));
   if (key == "v") return vertex();
   if (key == "vt") return texture_coordinates();
   if (key == "vn") return normal();
@@ -203,14 +208,18 @@ void ObjReader::use_material(std::string name) {
 void ObjReader::load_materials() {
   std::vector<std::string> names(words_.begin() + 1, words_.end());
   std::error_code ignored;
-  if (std::filesystem::exists(folder_ / join_words(words_, 1), ignored)) names = {join_words(words_, 1)};
+  if (const std::string whole = join_words(words_, 1);
+      whole.size() <= kLongestName && std::filesystem::exists(folder_ / whole, ignored))
+    names = {whole};
   for (std::string& name : names) {
     std::replace(name.begin(), name.end(), '\\', '/');
-    if (!loaded_.insert(name).second) continue;
+    if (name.size() > kLongestName || !loaded_.insert(std::filesystem::path(name).lexically_normal()).second) continue;
     const std::filesystem::path file = name;
-    std::string error = read_mtl(folder_ / file, file.parent_path(), result_);
+    std::string error = read_mtl(folder_ / file, file.parent_path(), limits_, result_);
     if (error.empty()) continue;
-    std::string missing = missing_file_hint({folder_}, name);
+    // Looking through folders for hundreds of files would take longer than anybody reads.
+    constexpr size_t kSought = 20;
+    std::string missing = loaded_.size() <= kSought ? missing_file_hint({folder_}, name) : std::string();
     std::replace(missing.begin(), missing.end(), '\n', ' ');
     if (!missing.empty()) error += "; " + missing;
     result_.notes.push_back(fmt::format("line {}: cannot read {}: {}", lines_.line(), in_quotes(name), error));
@@ -245,9 +254,9 @@ MeshData ObjReader::finish(PartBuilder& part) {
   return mesh;
 }
 
-ObjResult read(const std::filesystem::path& path, bool materials) {
-  const FileBytes file = read_text_file(path);
-  if (file.error.empty()) return ObjReader(file.bytes, path.parent_path(), materials).read();
+ObjResult read(const std::filesystem::path& path, bool materials, const Limits& limits) {
+  const FileBytes file = read_text_file(path, limits);
+  if (file.error.empty()) return ObjReader(file.bytes, path.parent_path(), materials, limits).read();
   ObjResult result;
   result.problems.push_back(file.error);
   return result;
@@ -255,10 +264,10 @@ ObjResult read(const std::filesystem::path& path, bool materials) {
 
 }  // namespace
 
-ObjResult read_obj(const std::filesystem::path& path) { return read(path, true); }
+ObjResult read_obj(const std::filesystem::path& path, const Limits& limits) { return read(path, true, limits); }
 
-MeshResult read_obj_mesh(const std::filesystem::path& path) {
-  ObjResult parts = read(path, false);
+MeshResult read_obj_mesh(const std::filesystem::path& path, const Limits& limits) {
+  ObjResult parts = read(path, false, limits);
   MeshResult result{{}, std::move(parts.problems), std::move(parts.notes)};
   if (!parts.parts.empty()) result.mesh = std::move(parts.parts[0].mesh);
   return result;

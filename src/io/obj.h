@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,20 +44,22 @@ struct ObjPart {
 };
 
 struct ObjResult {
-  std::vector<ObjPart> parts;          // in the order of first use; none when there are problems
-  std::vector<ObjMaterial> materials;  // of all MTL files that could be read; the last of a name counts
-  std::vector<std::string> problems;   // as in MeshResult
+  std::vector<ObjPart> parts;              // in the order of first use; none when there are problems
+  std::vector<ObjMaterial> materials;      // of all MTL files that could be read; the last of a name counts
+  std::map<std::string, size_t> index_of;  // of the material of a name
+  std::vector<std::string> problems;       // as in MeshResult
   std::vector<std::string> notes;
 
   const ObjMaterial* find(const std::string& name) const;
 };
 
-ObjResult read_obj(const std::filesystem::path& path);
+ObjResult read_obj(const std::filesystem::path& path, const Limits& limits = {});
 // All faces as one mesh, without materials.
-MeshResult read_obj_mesh(const std::filesystem::path& path);
+MeshResult read_obj_mesh(const std::filesystem::path& path, const Limits& limits = {});
 
 // Adds the materials of an MTL file. `folder` is its own, relative to that of the OBJ file. Returns why it can't be
 // read, or an empty string.
-std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, ObjResult& result);
+std::string read_mtl(const std::filesystem::path& path, const std::filesystem::path& folder, const Limits& limits,
+                     ObjResult& result);
 
 }  // namespace etd

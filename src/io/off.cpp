@@ -36,7 +36,7 @@ std::optional<OffLayout> parse_keyword(std::string_view word, bool& higher) {
 
 class OffReader {
  public:
-  explicit OffReader(std::string_view text) : lines_(text) {}
+  OffReader(std::string_view text, const Limits& limits) : lines_(text), limits_(limits) {}
   MeshResult read();
 
  private:
@@ -56,6 +56,7 @@ class OffReader {
   void take_vertex(const std::vector<double>& values, size_t index);
 
   TextLines lines_;
+  Limits limits_;
   std::vector<std::string_view> words_;
   size_t at_ = 0;  // next word of the line
   OffLayout layout_;
@@ -223,6 +224,7 @@ bool OffReader::read_face(size_t index) {
         fmt::format("face {} begins with {}, not with its number of vertices: are there {} vertices, as the "
                     "header says?",
                     index, in_quotes(word), vertex_count_));
+  if (static_cast<uint64_t>(*count) > limits_.corners) return fail(too_many_corners(limits_));
   bool good = true;
   corners_.clear();
   for (int64_t k = 0; k < *count; ++k) {
@@ -242,9 +244,9 @@ bool OffReader::read_face(size_t index) {
 
 }  // namespace
 
-MeshResult read_off(const std::filesystem::path& path) {
-  const FileBytes file = read_text_file(path);
-  if (file.error.empty()) return OffReader(file.bytes).read();
+MeshResult read_off(const std::filesystem::path& path, const Limits& limits) {
+  const FileBytes file = read_text_file(path, limits);
+  if (file.error.empty()) return OffReader(file.bytes, limits).read();
   MeshResult result;
   result.problems.push_back(file.error);
   return result;

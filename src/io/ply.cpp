@@ -33,7 +33,7 @@ void want(PlyPlan& plan, std::string_view name, int slot) {
 
 class PlyMeshReader {
  public:
-  explicit PlyMeshReader(std::string_view file) : file_(file) {}
+  PlyMeshReader(std::string_view file, const Limits& limits) : file_(file), limits_(limits) {}
   MeshResult read();
 
  private:
@@ -51,6 +51,7 @@ class PlyMeshReader {
   void no_vertex(const PlyBody& body, const PlyElement& element, uint64_t index, double vertex);
 
   std::string_view file_;
+  Limits limits_;
   ProblemList problems_;
   std::vector<std::string> notes_;
   PlyHeader header_;
@@ -218,6 +219,8 @@ void PlyMeshReader::no_vertex(const PlyBody& body, const PlyElement& element, ui
 }
 
 void PlyMeshReader::take_face(const PlyBody& body, const PlyValues& values, uint64_t index) {
+  if (values.list.size() > limits_.corners)
+    return problems_.add(fmt::format("{}: {}", body.place(*faces_.element, index), too_many_corners(limits_)));
   corners_.clear();
   for (const double corner : values.list) {
     if (is_vertex(corner))
@@ -257,9 +260,9 @@ void PlyMeshReader::take_strips(const PlyBody& body, const PlyValues& values, ui
 
 }  // namespace
 
-MeshResult read_ply(const std::filesystem::path& path) {
-  const FileBytes file = read_text_file(path);
-  if (file.error.empty()) return PlyMeshReader(file.bytes).read();
+MeshResult read_ply(const std::filesystem::path& path, const Limits& limits) {
+  const FileBytes file = read_text_file(path, limits);
+  if (file.error.empty()) return PlyMeshReader(file.bytes, limits).read();
   MeshResult result;
   result.problems.push_back(file.error);
   return result;

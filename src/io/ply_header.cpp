@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "io/file.h"
 
@@ -63,6 +64,7 @@ class HeaderReader {
   int line_ = 1;
   bool good_ = true;
   bool has_format_ = false;
+  std::set<std::string_view> elements_, properties_;  // names; the latter of the element read last
 };
 
 std::optional<PlyHeader> HeaderReader::read() {
@@ -142,10 +144,11 @@ void HeaderReader::read_element(const Words& words) {
     if (parsed.ec != std::errc() || parsed.ptr != count.data() + count.size()) {
       wrong(fmt::format("the count of an element must be a whole number from 0, found {}", in_quotes(count)));
     }
-    if (header_.find(words[1]) != nullptr) wrong(fmt::format("a second element named {}", in_quotes(words[1])));
+    if (!elements_.insert(words[1]).second) wrong(fmt::format("a second element named {}", in_quotes(words[1])));
     element.name = words[1];
   }
   header_.elements.push_back(std::move(element));
+  properties_.clear();
 }
 
 void HeaderReader::read_property(const Words& words) {
@@ -157,7 +160,7 @@ void HeaderReader::read_property(const Words& words) {
   PlyElement& element = header_.elements.back();
   PlyProperty property;
   property.name = words.back();
-  if (element.find(property.name) != nullptr) {
+  if (!properties_.insert(words.back()).second) {
     wrong(fmt::format("a second property named {} of the same element", in_quotes(property.name)));
   }
   const auto type_of = [this](std::string_view word) {

@@ -23,8 +23,8 @@ std::string strip_byte_order_mark(std::string& text) {
   return {};
 }
 
-FileBytes read_text_file(const std::filesystem::path& path) {
-  FileBytes file = read_file_uncompressed(path);
+FileBytes read_text_file(const std::filesystem::path& path, const Limits& limits) {
+  FileBytes file = read_file_uncompressed(path, limits);
   if (file.error.empty()) file.error = strip_byte_order_mark(file.bytes);
   if (!file.error.empty()) file.bytes.clear();
   return file;

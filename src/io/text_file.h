@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/file.h"
+#include "params/limits.h"
 
 namespace etd {
 
@@ -10,6 +11,6 @@ namespace etd {
 std::string strip_byte_order_mark(std::string& text);
 
 // What is in a file, which may be compressed with gzip, without a byte-order mark.
-FileBytes read_text_file(const std::filesystem::path& path);
+FileBytes read_text_file(const std::filesystem::path& path, const Limits& limits = {});
 
 }  // namespace etd

@@ -8,9 +8,9 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0'; }
 
-void split(std::string_view line, std::vector<std::string_view>& words) {
+void split(std::string_view line, std::vector<std::string_view>& words, size_t most) {
   size_t at = 0;
-  while (true) {
+  while (words.size() < most) {
     while (at < line.size() && is_blank(line[at])) ++at;
     if (at == line.size() || line[at] == '#') return;
     const size_t begin = at;
@@ -29,10 +29,10 @@ std::string_view TextLines::take_line() {
   return line;
 }
 
-bool TextLines::next(std::vector<std::string_view>& words, bool joined) {
+bool TextLines::next(std::vector<std::string_view>& words, bool joined, size_t most) {
   words.clear();
   while (offset_ < text_.size()) {
-    split(take_line(), words);
+    split(take_line(), words, most);
     if (joined && !words.empty() && words.back() == "\\")
       words.pop_back();
     else if (!words.empty())

@@ -18,8 +18,8 @@ class TextLines {
   explicit TextLines(std::string_view text) : text_(text) {}
 
   // The words of the next line that has any, until the next call; false at the end of the text. A word that is a lone
-  // backslash at the end of a line joins it with the next one when `joined` is set.
-  bool next(std::vector<std::string_view>& words, bool joined = false);
+  // backslash at the end of a line joins it with the next one when `joined` is set. Words beyond `most` are left out.
+  bool next(std::vector<std::string_view>& words, bool joined = false, size_t most = SIZE_MAX);
   // Of the line read last, counted from 1.
   int line() const { return line_; }
   // Lines with words that are still to come.

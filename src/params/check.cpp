@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "params/describe.h"
 
@@ -124,6 +125,10 @@ std::optional<ParamProblem> value_problem(const ModelDecl& model, const ParamDec
   for (const int32_t x : param.integers)
     if (param.kind == ParamKind::kInteger && !in_range(decl, x))
       return problem(fmt::format("{} is {}, out of range", named(model, decl.name), x), "valid: " + range_text(decl));
+  for (const std::string& s : param.strings)
+    if (s.size() > kLongestName)
+      return problem(fmt::format("{} is a string of {} bytes", named(model, decl.name), s.size()),
+                     fmt::format("valid: up to {} bytes", kLongestName));
   if (decl.choices.empty()) return {};
   for (const std::string& s : param.strings) {
     if (std::find(decl.choices.begin(), decl.choices.end(), s) != decl.choices.end()) continue;
@@ -171,13 +176,14 @@ std::optional<ParamProblem> find_problem(const ModelDecl& model, const ParamDecl
 }
 
 void check_params(const ModelDecl& decl, const ModelUse& use, Diagnostics& diagnostics) {
+  std::map<std::string_view, const Param*> first_of;
   for (const Param& param : use.params) {
     const ParamDecl* declared = decl.find(param.name);
     if (!declared) {
       report_unknown(decl, param, diagnostics);
       continue;
     }
-    if (const Param* first = use.find(param.name); first != &param) {
+    if (const Param* first = first_of.emplace(param.name, &param).first->second; first != &param) {
       const std::string where =
           first->loc.file == param.loc.file ? std::string() : diagnostics.sources().name(first->loc.file) + ", ";
       diagnostics.error(param.loc, fmt::format("{} is given twice", named(decl, param.name)),

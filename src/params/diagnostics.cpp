@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
 #include <tuple>
+#include <utility>
+
+#include "core/hash.h"
 
 namespace etd {
 
 namespace {
 
 constexpr size_t kExcerptBytes = 100;
+// Longer messages and lines of hints carry a piece of the input that is no name.
+constexpr size_t kMessageBytes = 300, kHintBytes = 2000, kHintLines = 20;
 
 std::string_view severity_label(Severity severity) {
   switch (severity) {
@@ -87,35 +92,71 @@ std::string excerpt(std::string_view line, const SourceLoc& loc) {
                      tail_cut, std::string(head_cut.size() + head.columns, ' '), std::string(tildes, '~'));
 }
 
-std::string counted(int n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+// The text without its middle, if it is longer than `most` bytes: names stand in front, what is wrong with them behind.
+std::string shortened(std::string_view text, size_t most) {
+  if (text.size() <= most) return std::string(text);
+  size_t head = most * 2 / 3, tail = text.size() - most / 3;
+  while (head > 0 && is_continuation(text[head])) --head;
+  while (tail < text.size() && is_continuation(text[tail])) ++tail;
+  return fmt::format("{}...{}", text.substr(0, head), text.substr(tail));
+}
+
+std::string counted(size_t n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, each counting one.
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> before(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
-  std::iota(previous.begin(), previous.end(), size_t{0});
+constexpr size_t kLongestWord = 64;
+
+// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, each counting one. Looks no
+// further than `most`: what is larger may be any larger number. `a` has at most kLongestWord letters.
+size_t edit_distance(std::string_view a, std::string_view b, size_t most) {
+  const size_t beyond = most + 1;
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) > most) return beyond;
+  // Cells further than `most` from the diagonal are beyond it.
+  using Row = std::array<uint8_t, 2 * kLongestWord>;
+  Row rows[3];
+  Row *before = &rows[0], *previous = &rows[1], *row = &rows[2];
+  const auto cell = [beyond](size_t distance) { return static_cast<uint8_t>(std::min(distance, beyond)); };
+  for (size_t j = 0; j <= b.size(); ++j) (*previous)[j] = cell(j);
   for (size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
+    const size_t first = i > most ? i - most : 1, last = std::min(b.size(), i + most);
+    (*row)[first - 1] = cell(first == 1 ? i : beyond);
+    if (last < b.size()) (*row)[last + 1] = cell(beyond);
+    for (size_t j = first; j <= last; ++j) {
       const bool same = lower(a[i - 1]) == lower(b[j - 1]);
-      row[j] = std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + (same ? 0 : 1)});
+      size_t least =
+          static_cast<size_t>(std::min({(*previous)[j] + 1, (*row)[j - 1] + 1, (*previous)[j - 1] + (same ? 0 : 1)}));
       if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
-        row[j] = std::min(row[j], before[j - 2] + 1);
+        least = std::min(least, static_cast<size_t>((*before)[j - 2]) + 1);
+      (*row)[j] = cell(least);
     }
     std::swap(before, previous);
     std::swap(previous, row);
   }
-  return previous[b.size()];
+  return (*previous)[b.size()];
 }
 
 }  // namespace
 
-void Diagnostics::add(Diagnostic d) {
+Diagnostic* Diagnostics::add(Diagnostic d) {
   const SourceLoc place = d.severity == Severity::kNote ? SourceLoc{} : d.loc;
-  if (!said_.insert(fmt::format("{}:{}:{}:{}", place.file, place.line, place.column, d.message)).second) return;
-  errors_ += d.severity == Severity::kError || d.severity == Severity::kUnsupported;
-  list_.push_back(std::move(d));
+  const uint64_t where = hash_combine(static_cast<uint64_t>(place.file), static_cast<uint64_t>(place.line),
+                                      static_cast<uint64_t>(place.column));
+  if (!said_.insert(hash_combine(where, std::hash<std::string>()(d.message))).second) return nullptr;
+  if (counts_[static_cast<size_t>(d.severity)]++ >= limits_.messages) return nullptr;
+  d.message = shortened(d.message, kMessageBytes);
+  set_hint(d, std::exchange(d.hint, {}));
+  return &list_.emplace_back(std::move(d));
+}
+
+void Diagnostics::set_hint(Diagnostic& d, std::string_view hint) {
+  d.hint.clear();
+  for (size_t lines = 0; !hint.empty() && lines < kHintLines; ++lines) {
+    const size_t end = std::min(hint.find('\n'), hint.size());
+    d.hint += shortened(hint.substr(0, end), kHintBytes) + (end < hint.size() ? "\n" : "");
+    hint.remove_prefix(std::min(end + 1, hint.size()));
+  }
+  if (!hint.empty()) d.hint += "...";
 }
 
 void Diagnostics::error(SourceLoc loc, std::string message, std::string hint) {
@@ -159,24 +200,28 @@ std::string Diagnostics::format_all() const {
     return std::tie(a->loc.file, a->loc.line, a->loc.column) < std::tie(b->loc.file, b->loc.line, b->loc.column);
   });
   std::string out;
-  int unsupported_uses = 0, warnings = 0;
-  for (const Diagnostic* d : order) {
-    out += format(*d);
-    unsupported_uses += d->severity == Severity::kUnsupported;
-    warnings += d->severity == Severity::kWarning;
-  }
-  std::string count;
-  if (errors_ > 0) count = counted(errors_, "error");
-  if (unsupported_uses > 0) count += fmt::format(" ({})", counted(unsupported_uses, "unsupported use"));
-  if (warnings > 0) count += (count.empty() ? "" : ", ") + counted(warnings, "warning");
-  return count.empty() ? out : out + count + "\n";
+  for (const Diagnostic* d : order) out += format(*d);
+  const bool all_shown = *std::max_element(counts_.begin(), counts_.end()) <= limits_.messages;
+  std::string counts;
+  const auto add_count = [&](size_t n, std::string_view what) {
+    if (n > 0) counts += (counts.empty() ? "" : ", ") + counted(n, what);
+  };
+  add_count(static_cast<size_t>(error_count()), "error");
+  if (count(Severity::kUnsupported) > 0)
+    counts += fmt::format(" ({})", counted(count(Severity::kUnsupported), "unsupported use"));
+  add_count(count(Severity::kWarning), "warning");
+  if (!all_shown) add_count(count(Severity::kNote), "note");
+  if (!all_shown) counts += "; not all are shown: " + limit_text(limits_, &Limits::messages);
+  return counts.empty() ? out : out + counts + "\n";
 }
 
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> candidates) {
   std::string_view best;
+  if (word.size() > kLongestWord) return best;
   size_t best_distance = word.size() / 3 + 1;
   for (const std::string_view candidate : candidates) {
-    const size_t distance = edit_distance(word, candidate);
+    if (best_distance == 0) break;
+    const size_t distance = edit_distance(word, candidate, best_distance - 1);
     if (distance < best_distance) best = candidate, best_distance = distance;
   }
   return best;

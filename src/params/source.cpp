@@ -18,8 +18,7 @@ std::string_view Sources::line(int32_t file, int32_t line) const {
   const size_t index = static_cast<size_t>(line) - 1;
   if (index >= source.line_starts.size()) return {};
   const size_t begin = source.line_starts[index];
-  size_t end = source.text.find('\n', begin);
-  if (end == std::string::npos) end = source.text.size();
+  size_t end = index + 1 < source.line_starts.size() ? source.line_starts[index + 1] - 1 : source.text.size();
   if (end > begin && source.text[end - 1] == '\r') --end;
   return std::string_view(source.text).substr(begin, end - begin);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 
 #include "cameras/shutter.h"
@@ -9,6 +11,7 @@
 #include "scene/check_transform.h"
 #include "scene/compile_geometry.h"
 #include "scene/compile_lights.h"
+#include "scene/nesting.h"
 #include "scene/registry.h"
 #include "scene/visibility.h"
 
@@ -20,60 +23,109 @@ void check(Family family, const ModelUse& use, Diagnostics& diagnostics) {
   if (const ModelDecl* decl = find_model(family, use.model)) check_params(*decl, use, diagnostics);
 }
 
-// Builds textures after the textures they refer to, and rejects cycles.
+// Builds textures after the textures they refer to, and rejects cycles and what would take too long to look up: two
+// references to one texture, forty times in a row, are a million million lookups.
 class TextureOrder {
  public:
   TextureOrder(const SceneDescription& description, TextureBuilder& builder, Diagnostics& diagnostics)
-      : description_(description), builder_(builder), diagnostics_(diagnostics), state_(description.textures.size()) {
+      : description_(description), builder_(builder), diagnostics_(diagnostics), built_(description.textures.size()) {
     for (size_t i = 0; i < description.textures.size(); ++i)
       names_[{description.textures[i].name, description.textures[i].is_float}] = i;
-    for (size_t i = 0; i < description.textures.size(); ++i) build(i);
+    for (size_t i = 0; i < description.textures.size(); ++i) build(i, 1);
   }
 
  private:
   enum class State { kNew, kBuilding, kBuilt };
+  struct Built {
+    State state = State::kNew;
+    uint64_t levels = 1, lookups = 1;  // with those of the textures it refers to
+  };
 
-  void build(size_t i) {
+  // A texture that `depth` - 1 others wait for.
+  void build(size_t i, uint64_t depth) {
     const TextureDesc& t = description_.textures[i];
-    if (state_[i] == State::kBuilt) return;
-    if (state_[i] == State::kBuilding) {
-      diagnostics_.error(t.use.loc, fmt::format("texture \"{}\" refers to itself", t.name));
-      // A stand-in, so that the textures of the cycle are not reported as missing too.
-      builder_.add(t.name, t.is_float, {"constant", {}, t.use.loc}, t.to_world, diagnostics_);
-      return;
-    }
-    state_[i] = State::kBuilding;
+    Built& built = built_[i];
+    if (built.state == State::kBuilt) return;
+    if (built.state == State::kBuilding) return replace(i, fmt::format("texture \"{}\" refers to itself", t.name), {});
+    if (depth > diagnostics_.limits().nesting) return too_deep(i);
+    built.state = State::kBuilding;
     check(Family::kTexture, t.use, diagnostics_);
     const ModelDecl* decl = find_model(Family::kTexture, t.use.model);
     for (const Param& p : t.use.params) {
       const ParamDecl* declared = decl ? decl->find(p.name) : nullptr;
       if (!declared || p.kind != ParamKind::kTexture || p.strings.empty()) continue;
       const bool is_float = t.is_float || declared->type == ParamType::kFloatTexture;
-      if (const auto it = names_.find({p.strings[0], is_float}); it != names_.end()) build(it->second);
+      const auto it = names_.find({p.strings[0], is_float});
+      if (it == names_.end()) continue;
+      build(it->second, depth + 1);
+      built.levels = std::max(built.levels, built_[it->second].levels + 1);
+      built.lookups += built_[it->second].lookups;
     }
+    built.state = State::kBuilt;
+    if (built.levels > diagnostics_.limits().nesting) return too_deep(i);
+    if (built.lookups > diagnostics_.limits().lookups)
+      return replace(i, fmt::format("a lookup of texture \"{}\" asks {} textures", t.name, built.lookups),
+                     limit_text(diagnostics_.limits(), &Limits::lookups));
     builder_.add(t.name, t.is_float, t.use, t.to_world, diagnostics_);
-    state_[i] = State::kBuilt;
+  }
+
+  void too_deep(size_t i) {
+    const TextureDesc& t = description_.textures[i];
+    report_nesting(t.use.loc, fmt::format("texture \"{}\"", t.name), diagnostics_);
+    replace(i, {}, {});
+  }
+
+  // A stand-in after an error, so that it is not reported as missing too.
+  void replace(size_t i, const std::string& problem, const std::string& hint) {
+    const TextureDesc& t = description_.textures[i];
+    if (!problem.empty()) diagnostics_.error(t.use.loc, problem, hint);
+    builder_.add(t.name, t.is_float, {"constant", {}, t.use.loc}, t.to_world, diagnostics_);
+    if (built_[i].state != State::kBuilding) built_[i] = {State::kBuilt, 1, 1};
   }
 
   const SceneDescription& description_;
   TextureBuilder& builder_;
   Diagnostics& diagnostics_;
-  std::vector<State> state_;
+  std::vector<Built> built_;
   std::map<std::pair<std::string, bool>, size_t> names_;
 };
 
-// Reports materials that are mixed of themselves. `visited`: 0 not yet, 1 above the current one, 2 done.
-void reject_cycles(const Scene& scene, uint32_t index, const std::vector<const ModelUse*>& uses,
-                   std::vector<uint8_t>& visited, Diagnostics& diagnostics) {
-  visited[index] = 1;
-  for (const uint32_t child : scene.materials[index].children()) {
-    if (visited[child] == 1)
-      diagnostics.error(uses[index]->loc, "a mix of materials refers to itself");
-    else if (visited[child] == 0)
-      reject_cycles(scene, child, uses, visited, diagnostics);
+// Materials that are mixed of others.
+class MaterialMixes {
+ public:
+  // `uses`: those of the scene's materials. Reports what is mixed of itself or of too many levels.
+  MaterialMixes(const Scene& scene, const std::vector<const ModelUse*>& uses, Diagnostics& diagnostics)
+      : scene_(scene), uses_(uses), diagnostics_(diagnostics), levels_(uses.size(), kNew) {
+    for (uint32_t i = 0; i < uses.size(); ++i) visit(i, 1);
   }
-  visited[index] = 2;
-}
+
+ private:
+  static constexpr uint64_t kNew = 0, kAbove = std::numeric_limits<uint64_t>::max();
+
+  // A material that `depth` - 1 others wait for.
+  void visit(uint32_t index, uint64_t depth) {
+    if (levels_[index] != kNew) return;
+    levels_[index] = kAbove;
+    uint64_t levels = depth;
+    if (depth <= diagnostics_.limits().nesting) {
+      levels = 1;
+      for (const uint32_t child : scene_.materials[index].children()) {
+        if (levels_[child] == kAbove)
+          diagnostics_.error(uses_[index]->loc, "a mix of materials refers to itself");
+        else
+          visit(child, depth + 1), levels = std::max(levels, levels_[child] + 1);
+      }
+    }
+    const bool too_deep = levels > diagnostics_.limits().nesting;
+    if (too_deep) report_nesting(uses_[index]->loc, "this mix of materials", diagnostics_);
+    levels_[index] = too_deep ? 1 : levels;
+  }
+
+  const Scene& scene_;
+  const std::vector<const ModelUse*>& uses_;
+  Diagnostics& diagnostics_;
+  std::vector<uint64_t> levels_;
+};
 
 // Indices of the description's materials in the scene; material 0 is the default one.
 std::vector<uint32_t> compile_materials(const SceneDescription& description, TextureBuilder& textures, Scene& scene,
@@ -98,9 +150,7 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
     scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
     scene.names.materials.push_back(name_item(Family::kMaterial, *use));
   }
-  std::vector<uint8_t> visited(uses.size(), 0);
-  for (uint32_t i = 0; i < uses.size(); ++i)
-    if (visited[i] == 0) reject_cycles(scene, i, uses, visited, diagnostics);
+  const MaterialMixes check_mixes(scene, uses, diagnostics);
   return material_of;
 }
 
@@ -147,6 +197,7 @@ void load_images(const CompileOptions& options, TextureBuilder& textures, SceneF
 
 std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
                                Diagnostics& diagnostics) {
+  if (!check_object_nesting(description, diagnostics)) return nullptr;
   auto scene = std::make_unique<Scene>();
   SceneFiles own, &files = options.files ? *options.files : own;
   if (options.files) scene->light_data.kept = &files.light_images;

@@ -53,7 +53,8 @@ class GeometryCompiler {
     check_shapes();
     load();
     if (diagnostics_.has_errors()) return;
-    placed_ = place_shapes(description_);
+    placed_ = place_shapes(description_, diagnostics_);
+    if (diagnostics_.has_errors()) return;
     measure();
     if (diagnostics_.has_errors()) return;
     scene_.origin = scene_.summary.bounds.nearest(view_.position) - Point3d{};

@@ -1,6 +1,7 @@
 #include "scene/place.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/registry.h"
 
@@ -30,15 +31,21 @@ struct Place {
 
 class Placer {
  public:
-  explicit Placer(const SceneDescription& description)
-      : description_(description), placed_(description.objects.size()) {}
+  Placer(const SceneDescription& description, Diagnostics& diagnostics)
+      : description_(description), diagnostics_(diagnostics), placed_(description.objects.size()) {
+    most_ = diagnostics.limits().copies + description.shapes.size() + description.instances.size();
+    for (const ObjectDesc& object : description.objects) {
+      most_ += object.shapes.size() + object.instances.size();
+      emits_.push_back(emits(object));
+    }
+  }
 
   PlacedShapes run() {
     add(description_.shapes, description_.instances, {});
     // Objects only contain earlier ones, so going backwards every place is known before its object is reached.
-    for (size_t o = description_.objects.size(); o-- > 0;) {
+    for (size_t o = description_.objects.size(); o-- > 0 && !too_many_;) {
       const ObjectDesc& object = description_.objects[o];
-      if (placed_[o].size() > 1 && !emits(object)) {
+      if (placed_[o].size() > 1 && !emits_[o]) {
         ShapeGroup group{{}, instances(placed_[o], Transform(), Transform()), true};
         expand(object, Transform(), placed_[o], group);
         out_.groups.push_back(std::move(group));
@@ -51,18 +58,29 @@ class Placer {
   }
 
  private:
+  // Of an object whose parts have been asked.
   bool emits(const ObjectDesc& object) const {
-    const auto child_emits = [&](const InstanceDesc& i) {
-      return emits(description_.objects[static_cast<size_t>(i.object)]);
-    };
+    const auto child_emits = [&](const InstanceDesc& i) { return emits_[static_cast<size_t>(i.object)]; };
     return std::any_of(object.shapes.begin(), object.shapes.end(),
                        [](const ShapeDesc& s) { return s.area_light >= 0; }) ||
            std::any_of(object.instances.begin(), object.instances.end(), child_emits);
   }
 
+  // Counts a shape or an instance; one on a long path takes the memory of several. False, and reported the first time,
+  // when there are too many.
+  bool count(const TransformPath& path, SourceLoc loc) {
+    made_ += 1 + path.length() / 4;
+    if (made_ > most_ && !std::exchange(too_many_, true))
+      diagnostics_.error(
+          loc, "instances of objects that contain instances make too many copies",
+          "shapes and instances that the scene does not list: " + limit_text(diagnostics_.limits(), &Limits::copies));
+    return !too_many_;
+  }
+
   // The content of what is in one place.
   void add(const std::vector<ShapeDesc>& shapes, const std::vector<InstanceDesc>& instances, Place place) {
     for (const ShapeDesc& s : shapes) {
+      if (!count(place.path, s.use.loc)) return;
       const int object = place.object >= 0 ? place.object : object_of(s);
       if (s.to_world.is_moving()) {
         Place own = place.then(s.to_world, s.use.loc);
@@ -79,8 +97,12 @@ class Placer {
         inner.object = static_cast<int>(out_.objects.size());
         out_.objects.push_back({{"instance", i.loc}, description_.objects[static_cast<size_t>(i.object)].name});
       }
-      placed_[static_cast<size_t>(i.object)].push_back(inner);
+      add_place(i, inner);
     }
+  }
+
+  void add_place(const InstanceDesc& instance, Place place) {
+    if (count(place.path, instance.loc)) placed_[static_cast<size_t>(instance.object)].push_back(std::move(place));
   }
 
   // A shape of the world is an object of its own, or with the shapes before it that it is a part with.
@@ -108,27 +130,36 @@ class Placer {
   // All that stands still in an object and in the objects in it goes to the group; what moves there gets its own.
   void expand(const ObjectDesc& object, const Transform& t, const std::vector<Place>& places, ShapeGroup& group) {
     for (const ShapeDesc& s : object.shapes) {
-      if (s.to_world.is_moving())
+      if (!count({}, s.use.loc)) return;
+      if (s.to_world.is_moving()) {
+        made_ += places.size();
         out_.groups.push_back({{{&s, Transform()}}, instances(places, t, s.to_world), true});
-      else
+      } else {
         group.shapes.push_back({&s, t * s.to_world.start});
+      }
     }
     for (const InstanceDesc& i : object.instances) {
-      const auto child = static_cast<size_t>(i.object);
+      if (!count({}, i.loc)) return;
       if (!i.to_world.is_moving())
-        expand(description_.objects[child], t * i.to_world.start, places, group);
+        expand(description_.objects[static_cast<size_t>(i.object)], t * i.to_world.start, places, group);
       else
-        for (const Place& p : places) placed_[child].push_back(p.then(t, p.loc).then(i.to_world, i.loc));
+        for (const Place& p : places) add_place(i, p.then(t, p.loc).then(i.to_world, i.loc));
     }
   }
 
   const SceneDescription& description_;
+  Diagnostics& diagnostics_;
+  std::vector<bool> emits_;                 // by object
   std::vector<std::vector<Place>> placed_;  // by object
   PlacedShapes out_;
+  uint64_t made_ = 0, most_ = 0;  // shapes and instances
+  bool too_many_ = false;
 };
 
 }  // namespace
 
-PlacedShapes place_shapes(const SceneDescription& description) { return Placer(description).run(); }
+PlacedShapes place_shapes(const SceneDescription& description, Diagnostics& diagnostics) {
+  return Placer(description, diagnostics).run();
+}
 
 }  // namespace etd

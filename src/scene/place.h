@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/animated_transform.h"
+#include "params/diagnostics.h"
 #include "scene/description.h"
 #include "scene/names.h"
 
@@ -38,7 +39,8 @@ struct PlacedShapes {
 
 // Flattens: what one instance places, or what emits, becomes part of the world, or, where it moves, of a group of its
 // own, so that a light is one surface in one place. What stands still in such a group has the size there that it has
-// in the world when the motion starts: rigid motions then only turn and translate it.
-PlacedShapes place_shapes(const SceneDescription& description);
+// in the world when the motion starts: rigid motions then only turn and translate it. Instances of instances multiply:
+// more copies than the limits allow are an error, and what comes back then is incomplete.
+PlacedShapes place_shapes(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace etd

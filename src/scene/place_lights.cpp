@@ -9,9 +9,6 @@ namespace etd {
 
 namespace {
 
-// Instances within instances multiply, so that a short text can ask for any number of lights.
-constexpr double kMostLights = 1 << 20;
-
 class LightPlacer {
  public:
   explicit LightPlacer(const SceneDescription& description)
@@ -27,11 +24,14 @@ class LightPlacer {
   }
 
   std::vector<PlacedLight> run(Diagnostics& diagnostics) {
-    if (const double count = lights_of(description_.instances); count > kMostLights) {
+    // Instances within instances multiply, so that a short text can ask for any number of lights.
+    const double most =
+        static_cast<double>(diagnostics.limits().copies) + static_cast<double>(description_.instances.size());
+    if (const double count = lights_of(description_.instances); count > most) {
       const auto largest = std::max_element(description_.instances.begin(), description_.instances.end(),
                                             [&](const auto& a, const auto& b) { return lights_of(a) < lights_of(b); });
       diagnostics.error(largest->loc, fmt::format("instances place {:.3g} lights", count),
-                        fmt::format("the limit is {:.0f}", kMostLights));
+                        "lights that the scene does not list: " + limit_text(diagnostics.limits(), &Limits::copies));
     } else {
       for (const InstanceDesc& i : description_.instances) add(i);
     }

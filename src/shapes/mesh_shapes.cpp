@@ -212,7 +212,7 @@ std::optional<MeshData> as_triangles(const PatchData& data) {
 void report_mesh_problems(std::span<const std::string> problems, std::span<const std::string> notes, SourceLoc loc,
                           const std::filesystem::path& folder, const std::string& name, Diagnostics& diagnostics) {
   for (const std::string& problem : problems)
-    diagnostics.error(loc, fmt::format("{}: {}", name, problem), missing_file_hint({folder}, name));
+    diagnostics.error(loc, fmt::format("{}: {}", name, problem), [&] { return missing_file_hint({folder}, name); });
   for (const std::string& note : notes) diagnostics.note(loc, fmt::format("{}: {}", name, note));
 }
 
@@ -221,7 +221,10 @@ std::optional<MeshData> make_mesh_from_file(const ParamReader& p, const std::fil
   if (!file) return {};
   const std::filesystem::path path = folder / file->strings[0];
   const std::string& model = p.decl().name;
-  MeshResult result = model == "plymesh" ? read_ply(path) : model == "offmesh" ? read_off(path) : read_obj_mesh(path);
+  const Limits& limits = p.diagnostics().limits();
+  MeshResult result = model == "plymesh"   ? read_ply(path, limits)
+                      : model == "offmesh" ? read_off(path, limits)
+                                           : read_obj_mesh(path, limits);
   report_mesh_problems(result.problems, result.notes, file->value_loc, folder, file->strings[0], p.diagnostics());
   return std::move(result.mesh);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "params/declaration.h"
 #include "textures/texture.h"
@@ -52,6 +53,7 @@ class ImageStore {
   TextureTable& table_;
   std::filesystem::path folder_;
   std::vector<Request> requests_;  // by index in the table
+  std::map<std::tuple<std::string, std::string, std::optional<ImageWrap>>, int32_t> index_of_;
   size_t loaded_ = 0;
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> finest_;  // by path and options
 };

@@ -109,15 +109,15 @@ void TextureBuilder::recentre(Vec3d origin) {
 int32_t TextureBuilder::find(const Param& reference, bool is_float, Diagnostics& diagnostics) const {
   const std::string& name = reference.strings[0];
   if (const auto it = names_.find({name, is_float}); it != names_.end()) return it->second;
-  std::vector<std::string_view> candidates;
-  for (const auto& [key, index] : names_)
-    if (key.second == is_float) candidates.push_back(key.first);
-  const std::string_view near = nearest_name(name, candidates);
-  std::string hint = near.empty() ? "" : fmt::format("did you mean \"{}\"?", near);
-  if (names_.count({name, !is_float}))
-    hint = fmt::format("\"{}\" is a {} texture", name, is_float ? "spectrum" : "float");
-  diagnostics.error(reference.value_loc,
-                    fmt::format("there is no {} texture \"{}\"", is_float ? "float" : "spectrum", name), hint);
+  const std::string_view kind = is_float ? "float" : "spectrum", other = is_float ? "spectrum" : "float";
+  diagnostics.error(reference.value_loc, fmt::format("there is no {} texture \"{}\"", kind, name), [&] {
+    if (names_.count({name, !is_float})) return fmt::format("\"{}\" is a {} texture", name, other);
+    std::vector<std::string_view> candidates;
+    for (const auto& [key, index] : names_)
+      if (key.second == is_float) candidates.push_back(key.first);
+    const std::string_view near = nearest_name(name, candidates);
+    return near.empty() ? std::string() : fmt::format("did you mean \"{}\"?", near);
+  });
   return -1;
 }
 

@@ -213,7 +213,7 @@ std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, 
   const ParamReader p(objmesh_decl(), shape.use, diagnostics);
   const Param* file = p.given("filename");
   if (!file || !p.boolean("materials")) return {std::move(shape)};
-  ObjResult obj = read_obj(scene.folder / file->strings[0]);
+  ObjResult obj = read_obj(scene.folder / file->strings[0], diagnostics.limits());
   report_mesh_problems(obj.problems, obj.notes, file->value_loc, scene.folder, file->strings[0], diagnostics);
   if (!obj.problems.empty()) return {};
   const std::string name = file->strings[0];

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 3> kEndings = {".obj", ".off", ".ply"};
 
 std::optional<MeshData> read_plain_mesh(const std::filesystem::path& file, const std::string& ending,
                                         Diagnostics& diagnostics) {
-  MeshResult result = ending == ".ply" ? read_ply(file) : read_off(file);
+  MeshResult result = ending == ".ply" ? read_ply(file, diagnostics.limits()) : read_off(file, diagnostics.limits());
   report_mesh_problems(result.problems, result.notes, {}, {}, file.string(), diagnostics);
   if (result.mesh) drop_unused_vertices(*result.mesh, corners_of(result.mesh->triangles));
   return std::move(result.mesh);
@@ -121,7 +121,7 @@ SceneDescription read_mesh_scene(const std::filesystem::path& file, Diagnostics&
   const ShapeDesc grey{{}, {}, false, 0, -1};
   const std::string ending = uncompressed_ending(file);
   if (ending == ".obj") {
-    ObjResult obj = read_obj(file);
+    ObjResult obj = read_obj(file, diagnostics.limits());
     report_mesh_problems(obj.problems, obj.notes, {}, {}, file.string(), diagnostics);
     scene.shapes = add_obj(std::move(obj), file.filename(), grey, scene, diagnostics);
   } else if (const auto mesh = read_plain_mesh(file, ending, diagnostics)) {

@@ -32,18 +32,8 @@ void convert_rgb(Param& p, ColorRole role, ColorSpace space, Diagnostics& diagno
 }
 
 // Pairs of a wavelength in nm and a value, as text with # comments.
-void read_spectrum_file(Param& p, const std::filesystem::path& folder, Diagnostics& diagnostics) {
-  const FileBytes file = read_text_file(folder / p.strings[0]);
-  const auto fail = [&](const std::string& why) {
-    const std::string missing = missing_file_hint({folder}, p.strings[0]);
-    diagnostics.error(p.value_loc, fmt::format("cannot read spectrum \"{}\": {}", p.strings[0], why),
-                      fmt::format("{}{}valid: a file of wavelengths and values, or one of {}", missing,
-                                  missing.empty() ? "" : "\n", named_spectra()));
-    p.malformed = true;
-  };
-  if (!file.error.empty()) return fail(file.error);
-  std::vector<double> numbers;
-  const std::string& text = file.bytes;
+SpectrumFiles::Spectrum parse_spectrum(const std::string& text) {
+  SpectrumFiles::Spectrum spectrum;
   for (size_t i = 0; i < text.size();) {
     const size_t line_end = std::min(text.find('\n', i), text.size());
     if (text[i] == '#') {
@@ -51,28 +41,56 @@ void read_spectrum_file(Param& p, const std::filesystem::path& folder, Diagnosti
     } else if (std::isspace(static_cast<unsigned char>(text[i]))) {
       ++i;
     } else {
-      size_t end = i;
-      while (end < line_end && text[end] != '#' && !std::isspace(static_cast<unsigned char>(text[end]))) ++end;
-      const std::optional<double> number = parse_number(std::string_view(text).substr(i, end - i));
-      if (!number) return fail(fmt::format("{} is not a number", in_quotes(text.substr(i, end - i))));
-      numbers.push_back(*number);
+      const size_t end = std::min(text.find_first_of("# \t\n\v\f\r", i), text.size());
+      const std::string_view word = std::string_view(text).substr(i, end - i);
+      const std::optional<double> number = parse_number(word);
+      if (!number) return {{}, fmt::format("{} is not a number", in_quotes(word))};
+      spectrum.numbers.push_back(*number);
       i = end;
     }
   }
-  if (numbers.empty() || numbers.size() % 2 != 0) return fail("it must hold pairs of a wavelength in nm and a value");
+  if (spectrum.numbers.empty() || spectrum.numbers.size() % 2 != 0)
+    return {{}, "it must hold pairs of a wavelength in nm and a value"};
+  return spectrum;
+}
+
+void read_spectrum_file(Param& p, SpectrumFiles& files, Repeats& repeats, Diagnostics& diagnostics) {
+  const std::string name = p.strings[0];
+  const bool again = files.knows(name);
+  const SpectrumFiles::Spectrum& spectrum = files.read(name);
+  p.malformed = !spectrum.problem.empty();
+  if (p.malformed) {
+    diagnostics.error(p.value_loc, fmt::format("cannot read spectrum \"{}\": {}", name, spectrum.problem), [&] {
+      const std::string missing =
+          name.size() > kLongestName ? std::string() : missing_file_hint({files.folder()}, name);
+      return fmt::format("{}{}valid: a file of wavelengths and values, or one of {}", missing,
+                         missing.empty() ? "" : "\n", named_spectra());
+    });
+    return;
+  }
+  if (again) p.malformed = !repeats.take(spectrum.numbers.size() * sizeof(double), p.value_loc, diagnostics);
   p.strings.clear();
-  p.numbers = std::move(numbers);
+  if (!p.malformed) p.numbers = spectrum.numbers;
 }
 
 }  // namespace
 
-void convert_colors(std::vector<Param>& params, ColorRole role, ColorSpace space, const std::filesystem::path& folder,
-                    Diagnostics& diagnostics) {
+const SpectrumFiles::Spectrum& SpectrumFiles::read(const std::string& name) {
+  const auto [entry, is_new] = read_.try_emplace(name);
+  if (!is_new) return entry->second;
+  if (name.size() > kLongestName) return entry->second = {{}, "its name is too long"}, entry->second;
+  const FileBytes file = read_text_file(folder_ / name);
+  entry->second = file.error.empty() ? parse_spectrum(file.bytes) : Spectrum{{}, file.error};
+  return entry->second;
+}
+
+void convert_colors(std::vector<Param>& params, ColorRole role, ColorSpace space, SpectrumFiles& files,
+                    Repeats& repeats, Diagnostics& diagnostics) {
   for (Param& p : params) {
     if (p.malformed) continue;
     if (p.kind == ParamKind::kRgb && space != ColorSpace::kSrgb) convert_rgb(p, role, space, diagnostics);
     if (p.kind == ParamKind::kSpectrum && p.strings.size() == 1 && !named_spectrum(p.strings[0]))
-      read_spectrum_file(p, folder, diagnostics);
+      read_spectrum_file(p, files, repeats, diagnostics);
   }
 }
 

@@ -133,12 +133,18 @@ std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics&
   return use;
 }
 
-bool may_take(Family family, std::string_view model, std::string_view param) {
-  if (const ModelDecl* decl = find_any_model(family, model); decl && decl->find(param)) return true;
+std::vector<std::string_view> params_of(Family family, std::string_view model) {
+  std::vector<std::string_view> names;
+  const auto add = [&](std::string_view name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  if (const ModelDecl* decl = find_any_model(family, model))
+    for (const ParamDecl& p : decl->params) add(p.name);
   if (const UnsupportedModel* m = find_unsupported(family, model))
-    for (const auto& [from, to] : m->kept)
-      if (from == param) return true;
-  return find_unsupported(family, model, param) != nullptr;
+    for (const auto& [from, to] : m->kept) add(from);
+  for (const UnsupportedParam& p : unsupported_params())
+    if (p.family == family && (p.model.empty() || p.model == model)) add(p.name);
+  return names;
 }
 
 }  // namespace etd::pbrt

@@ -52,7 +52,7 @@ std::span<const UnsupportedParam> unsupported_params();
 // must be left out.
 std::optional<ModelUse> make_supported(Family family, ModelUse use, Diagnostics& diagnostics);
 
-// Whether a default parameter set by `Attribute` applies to the model: it takes it here or in the language.
-bool may_take(Family family, std::string_view model, std::string_view param);
+// The parameters to which defaults of `Attribute` apply: those that the model takes here or in the language.
+std::vector<std::string_view> params_of(Family family, std::string_view model);
 
 }  // namespace etd::pbrt

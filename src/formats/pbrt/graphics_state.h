@@ -2,13 +2,10 @@
 #pragma once
 
 #include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
+#include <string_view>
 
 #include "core/transform.h"
-#include "params/param.h"
+#include "params/source.h"
 #include "spectrum/color_space.h"
 
 namespace etd::pbrt {
@@ -25,7 +22,6 @@ struct GraphicsState {
   ColorSpace color_space = ColorSpace::kSrgb;  // of rgb values that follow
   int material = -1;                           // index into the description's materials
   int area_light = -1;                         // index into the description's area lights
-  std::array<std::vector<Param>, kAttributeTargets.size()> defaults;
 
   // ctm = ctm * t, for the active ones.
   void concat(const Transform& t) {
@@ -44,6 +40,7 @@ struct Block {
   Kind kind;
   SourceLoc loc;
   GraphicsState outside;
+  size_t defaults_outside;  // mark of Parser::defaults
 };
 inline std::string_view block_name(Block::Kind kind) {
   return kind == Block::Kind::kAttribute ? "Attribute" : kind == Block::Kind::kTransform ? "Transform" : "Object";

@@ -19,11 +19,12 @@ void report_redefined(std::string_view what, const std::string& name, const Sour
 template <class Map>
 void report_undefined(std::string_view what, const std::string& name, const SourceLoc& loc, const Map& defined,
                       Diagnostics& diagnostics) {
-  std::vector<std::string_view> names;
-  for (const auto& entry : defined) names.push_back(entry.first);
-  const std::string_view near = nearest_name(name, names);
-  diagnostics.error(loc, fmt::format("{} \"{}\" is not defined", what, name),
-                    near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+  diagnostics.error(loc, fmt::format("{} \"{}\" is not defined", what, name), [&] {
+    std::vector<std::string_view> names;
+    for (const auto& entry : defined) names.push_back(entry.first);
+    const std::string_view near = nearest_name(name, names);
+    return near.empty() ? std::string() : fmt::format("did you mean \"{}\"?", near);
+  });
 }
 
 }  // namespace

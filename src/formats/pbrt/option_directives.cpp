@@ -31,7 +31,7 @@ void read_model(Parser& p, const Token& d, Family family, ModelUse& slot) {
 
 void camera(Parser& p, const Token& d) {
   read_model(p, d, Family::kCamera, p.scene.camera);
-  p.coordinate_systems["camera"] = p.state.ctm.inverse();
+  p.coordinate_systems.set("camera", p.state.ctm.inverse());
   if (const auto world_to_camera = p.placement(d.loc, "camera")) p.scene.camera_to_world = world_to_camera->inverse();
 }
 
@@ -184,7 +184,7 @@ void option(Parser& p, const Token& d) {
 void world_begin(Parser& p, const Token&) {
   p.state.ctm = {};
   p.state.start_active = p.state.end_active = true;
-  p.coordinate_systems["world"] = p.state.ctm;
+  p.coordinate_systems.set("world", p.state.ctm);
   p.world_begun = true;
 }
 

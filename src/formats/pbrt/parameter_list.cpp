@@ -39,22 +39,16 @@ struct Declaration {
 };
 
 Declaration split(const std::string& text) {
-  const auto space = [](char c) { return c == ' ' || c == '\t'; };
-  std::vector<std::string> words;
-  for (size_t i = 0; i < text.size();) {
-    if (space(text[i])) {
-      ++i;
-      continue;
-    }
-    size_t end = i;
-    while (end < text.size() && !space(text[end])) ++end;
-    words.push_back(text.substr(i, end - i));
-    i = end;
-  }
+  size_t at = 0;
+  const auto next_word = [&] {
+    const size_t begin = std::min(text.find_first_not_of(" \t", at), text.size());
+    at = std::min(text.find_first_of(" \t", begin), text.size());
+    return text.substr(begin, at - begin);
+  };
   Declaration d;
-  if (!words.empty()) d.type = words[0];
-  if (words.size() > 1) d.name = words[1];
-  d.extra = words.size() > 2;
+  d.type = next_word();
+  d.name = next_word();
+  d.extra = !next_word().empty();
   return d;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "formats/pbrt/coverage.h"
 #include "formats/pbrt/old_names.h"
@@ -21,11 +22,18 @@ bool has_other_quotes(std::string_view word) {
   return false;
 }
 
-std::string_view nearest_directive(std::string_view word) {
+std::vector<std::string_view> directive_names() {
   std::vector<std::string_view> names;
   for (const auto& list : {transform_directives(), option_directives(), world_directives()})
     for (const Directive& d : list) names.push_back(d.name);
-  return nearest_name(word, names);
+  return names;
+}
+
+// Of words that do not begin with a letter there is none: most of what is passed over after an error are numbers.
+std::string_view nearest_directive(std::string_view word) {
+  static const std::vector<std::string_view> names = directive_names();
+  const char first = static_cast<char>(word.empty() ? 0 : word[0] | 0x20);
+  return first >= 'a' && first <= 'z' ? nearest_name(word, names) : std::string_view();
 }
 
 void report_unknown_directive(const Token& token, Diagnostics& diagnostics) {
@@ -51,32 +59,39 @@ const Directive* find_directive(std::string_view name) {
 }
 
 void Parser::read_directives() {
-  while (const std::optional<Token> token = tokens.next()) {
-    const Directive* directive = token->kind == Token::Kind::kWord ? find_directive(token->text) : nullptr;
-    any_directive = true;
-    if (!directive) {
-      if (token->kind == Token::Kind::kWord && !parse_number(token->text))
-        report_unknown_directive(*token, diagnostics);
-      else
-        diagnostics.error(token->loc, fmt::format("expected a directive, not {}", shown(*token)),
-                          token->kind == Token::Kind::kWord ? "what stands before it takes no more numbers" : "");
-      resynchronise();
-      continue;
-    }
-    if (directive->where == Directive::Where::kWorld && !world_begun && !world_implied) {
-      diagnostics.error(token->loc, fmt::format("{} before WorldBegin", directive->name),
-                        "options come first, then WorldBegin, then the world");
-      world_implied = true;
-    }
-    if (directive->where == Directive::Where::kOptions && world_begun) {
-      diagnostics.error(token->loc, fmt::format("{} after WorldBegin", directive->name),
-                        "it is an option of the whole scene and stands before WorldBegin");
-      resynchronise();
-      continue;
-    }
-    directive->read(*this, *token);
+  while (true) {
+    if (const std::optional<Token> token = tokens.next())
+      read_directive(*token);
+    else if (imports_.empty())
+      return;
+    else
+      end_import();
     if (world_begun && ends_at_world) return;
   }
+}
+
+void Parser::read_directive(const Token& token) {
+  const Directive* directive = token.kind == Token::Kind::kWord ? find_directive(token.text) : nullptr;
+  any_directive = true;
+  if (!directive) {
+    if (token.kind == Token::Kind::kWord && !parse_number(token.text))
+      report_unknown_directive(token, diagnostics);
+    else
+      diagnostics.error(token.loc, fmt::format("expected a directive, not {}", shown(token)),
+                        token.kind == Token::Kind::kWord ? "what stands before it takes no more numbers" : "");
+    return resynchronise();
+  }
+  if (directive->where == Directive::Where::kWorld && !world_begun && !world_implied) {
+    diagnostics.error(token.loc, fmt::format("{} before WorldBegin", directive->name),
+                      "options come first, then WorldBegin, then the world");
+    world_implied = true;
+  }
+  if (directive->where == Directive::Where::kOptions && world_begun) {
+    diagnostics.error(token.loc, fmt::format("{} after WorldBegin", directive->name),
+                      "it is an option of the whole scene and stands before WorldBegin");
+    return resynchronise();
+  }
+  directive->read(*this, token);
 }
 
 void Parser::resynchronise() {
@@ -150,8 +165,12 @@ std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::str
 
 std::optional<ModelUse> Parser::model_arguments(const Token& directive, std::string_view what, ColorRole role) {
   std::optional<ModelUse> use = model_arguments(directive, what);
-  if (use) convert_colors(use->params, role, state.color_space, scene.folder, diagnostics);
+  if (use) convert_colors(use->params, role);
   return use;
+}
+
+void Parser::convert_colors(std::vector<Param>& params, ColorRole role) {
+  pbrt::convert_colors(params, role, state.color_space, spectra, tokens.repeats, diagnostics);
 }
 
 std::optional<TransformPair> Parser::placement(const SourceLoc& loc, std::string_view what) {
@@ -169,23 +188,38 @@ std::optional<TransformPair> Parser::placement(const SourceLoc& loc, std::string
   return t;
 }
 
-void Parser::add_defaults(AttributeTarget target, Family family, ModelUse& use) const {
-  for (const Param& p : state.defaults[static_cast<size_t>(target)])
-    if (!use.find(p.name) && may_take(family, use.model, p.name)) use.params.push_back(p);
+void Parser::add_defaults(AttributeTarget target, Family family, ModelUse& use) {
+  if (defaults.entries().empty()) return;
+  for (const std::string_view name : params_of(family, use.model)) {
+    const Param* p = defaults.find({target, std::string(name)});
+    if (!p || use.find(name)) continue;
+    size_t bytes = p->numbers.size() * sizeof(double) + p->integers.size() * sizeof(int32_t);
+    for (const std::string& s : p->strings) bytes += sizeof(s) + s.size();
+    if (tokens.repeats.take(bytes, use.loc, diagnostics)) use.params.push_back(*p);
+  }
 }
 
-void Parser::open_block(Block::Kind kind, const SourceLoc& loc) { blocks.push_back({kind, loc, state}); }
+void Parser::open_block(Block::Kind kind, const SourceLoc& loc) {
+  blocks.push_back({kind, loc, state, defaults.mark()});
+  ++open_[static_cast<size_t>(kind)];
+}
+
+void Parser::close_last_block() {
+  --open_[static_cast<size_t>(blocks.back().kind)];
+  state = std::move(blocks.back().outside);
+  defaults.go_back(blocks.back().defaults_outside);
+  blocks.pop_back();
+}
 
 bool Parser::close_block(Block::Kind kind, const SourceLoc& loc) {
-  size_t match = blocks.size();
-  while (match > first_block && blocks[match - 1].kind != kind) --match;
-  if (match == first_block) {
+  if (open_[static_cast<size_t>(kind)] == 0) {
     diagnostics.error(loc, fmt::format("{0}End without {0}Begin", block_name(kind)));
     return false;
   }
+  size_t match = blocks.size();
+  while (blocks[match - 1].kind != kind) --match;
   report_open_blocks(match);
-  state = std::move(blocks.back().outside);
-  blocks.pop_back();
+  close_last_block();
   return true;
 }
 
@@ -194,9 +228,25 @@ void Parser::report_open_blocks(size_t from) {
     const Block& open = blocks.back();
     diagnostics.error(open.loc, fmt::format("{0}Begin without {0}End", block_name(open.kind)));
     if (open.kind == Block::Kind::kObject) object = -1;
-    state = std::move(blocks.back().outside);
-    blocks.pop_back();
+    close_last_block();
   }
+}
+
+void Parser::begin_import() {
+  imports_.push_back({state, std::exchange(first_block_, blocks.size()), std::exchange(open_, {}), defaults.mark(),
+                      coordinate_systems.mark()});
+}
+
+void Parser::end_import() {
+  report_open_blocks(first_block_);
+  const Importing& outside = imports_.back();
+  state = outside.state;
+  first_block_ = outside.first_block;
+  open_ = outside.open;
+  defaults.go_back(outside.defaults);
+  coordinate_systems.go_back(outside.coordinate_systems);
+  imports_.pop_back();
+  tokens.pop_isolated();
 }
 
 }  // namespace etd::pbrt

@@ -47,20 +47,21 @@ int32_t TokenStream::push_text(std::string text, const std::string& name) {
   if (const std::string problem = strip_byte_order_mark(text); !problem.empty())
     diagnostics_.error({}, fmt::format("the file \"{}\": {}", name, problem));
   const int32_t source = diagnostics_.sources().add(name, std::move(text));
-  files_.push_back({Tokenizer(source, diagnostics_), fs::path(), false});
+  push(source, {}, {}, false);
   return source;
 }
 
 int32_t TokenStream::push_main(const fs::path& file) {
-  return push_file(file, {}, false, missing_file_hint({fs::path()}, file.string()));
+  return push_file(file, {}, false, [&] { return missing_file_hint({fs::path()}, file.string()); });
 }
 
 bool TokenStream::push_included(const std::string& name, const SourceLoc& loc, bool isolated) {
-  const fs::path given = name;
-  if (name.empty()) {
-    diagnostics_.error(loc, "the name of the file is empty");
+  if (name.empty() || name.size() > kLongestName) {
+    diagnostics_.error(loc, name.empty() ? std::string("the name of the file is empty")
+                                         : fmt::format("the name of the file has {} bytes", name.size()));
     return false;
   }
+  const fs::path given = name;
   // Names start in the folder of the scene, and where nothing is there, in that of the file that they stand in.
   std::vector<fs::path> folders = {folder_};
   if (!files_.empty() && !files_.back().path.empty()) folders.push_back(files_.back().path.parent_path());
@@ -68,10 +69,11 @@ bool TokenStream::push_included(const std::string& name, const SourceLoc& loc, b
   const auto found =
       std::find_if(folders.begin(), folders.end(), [&](const auto& f) { return fs::exists(f / given, error); });
   const fs::path path = ((found == folders.end() ? folder_ : *found) / given).lexically_normal();
-  return push_file(path, loc, isolated, missing_file_hint(folders, name)) >= 0;
+  return push_file(path, loc, isolated, [&] { return missing_file_hint(folders, name); }) >= 0;
 }
 
-int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool isolated, const std::string& missing) {
+int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool isolated,
+                               const std::function<std::string()>& missing) {
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(path, error);
   if (closes_a_loop(canonical, loc)) return -1;
@@ -83,7 +85,7 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
       return -1;
     }
     if (is_gzip(bytes.text)) {
-      FileBytes inside = gunzip(bytes.text);
+      FileBytes inside = gunzip(bytes.text, diagnostics_.limits());
       if (!inside.error.empty()) {
         diagnostics_.error(loc, fmt::format("the file \"{}\": {}", path.string(), inside.error));
         return -1;
@@ -106,28 +108,42 @@ int32_t TokenStream::push_file(const fs::path& path, const SourceLoc& loc, bool 
     }
     with_unix_line_ends(bytes.text);
     known = read_.emplace(canonical, diagnostics_.sources().add(path.string(), std::move(bytes.text))).first;
+  } else {
+    // Opening a file takes time, too.
+    constexpr size_t kLeast = 4096;
+    const size_t bytes = std::max(kLeast, diagnostics_.sources().text(known->second).size());
+    if (!repeats.take(bytes, loc, diagnostics_)) return -1;
   }
-  files_.push_back({Tokenizer(known->second, diagnostics_), path, isolated});
-  files_.back().tokenizer.set_quiet(quiet_);
+  push(known->second, path, canonical, isolated);
   return known->second;
 }
 
+void TokenStream::push(int32_t source, fs::path path, fs::path canonical, bool isolated) {
+  if (!path.empty()) open_.insert(canonical);
+  files_.push_back({Tokenizer(source, diagnostics_), std::move(path), std::move(canonical), isolated});
+}
+
+void TokenStream::pop() {
+  open_.erase(files_.back().canonical);
+  files_.pop_back();
+}
+
 bool TokenStream::closes_a_loop(const fs::path& canonical, const SourceLoc& loc) {
-  std::error_code error;
-  for (size_t i = 0; i < files_.size(); ++i) {
-    if (files_[i].path.empty() || fs::weakly_canonical(files_[i].path, error) != canonical) continue;
+  if (open_.count(canonical) == 0) return false;
+  diagnostics_.error(loc, "this file includes itself", [&] {
+    const auto first =
+        std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.canonical == canonical; });
     std::string chain;
-    for (size_t j = i; j < files_.size(); ++j) chain += files_[j].path.string() + " -> ";
-    diagnostics_.error(loc, "this file includes itself", chain + files_[i].path.string());
-    return true;
-  }
-  return false;
+    for (auto file = first; file != files_.end(); ++file) chain += file->path.string() + " -> ";
+    return chain + first->path.string();
+  });
+  return true;
 }
 
 void TokenStream::pop_isolated() {
   peeked_.reset();
-  while (!files_.empty() && !files_.back().isolated) files_.pop_back();
-  if (!files_.empty()) files_.pop_back();
+  while (!files_.empty() && !files_.back().isolated) pop();
+  if (!files_.empty()) pop();
 }
 
 std::optional<Token> TokenStream::next() {
@@ -137,9 +153,9 @@ std::optional<Token> TokenStream::next() {
     return token;
   }
   while (!files_.empty()) {
-    if (std::optional<Token> token = files_.back().tokenizer.next()) return token;
+    if (std::optional<Token> token = files_.back().tokenizer.next(quiet_)) return token;
     if (files_.back().isolated) break;
-    files_.pop_back();
+    pop();
   }
   return {};
 }
@@ -147,11 +163,6 @@ std::optional<Token> TokenStream::next() {
 std::optional<Token> TokenStream::peek() {
   if (!peeked_) peeked_ = next();
   return peeked_;
-}
-
-void TokenStream::set_quiet(bool quiet) {
-  quiet_ = quiet;
-  for (File& file : files_) file.tokenizer.set_quiet(quiet);
 }
 
 }  // namespace etd::pbrt

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <set>
 #include <vector>
 
+#include "formats/pbrt/repeats.h"
 #include "formats/pbrt/tokenizer.h"
 
 namespace etd::pbrt {
@@ -27,22 +30,29 @@ class TokenStream {
 
   std::optional<Token> next();
   std::optional<Token> peek();
-  void set_quiet(bool quiet);
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+
+  Repeats repeats;
 
  private:
   struct File {
     Tokenizer tokenizer;
-    std::filesystem::path path;
+    std::filesystem::path path;  // as it was named; empty: no file
+    std::filesystem::path canonical;
     bool isolated = false;
   };
 
   // `missing`: what to tell when there is no such file.
-  int32_t push_file(const std::filesystem::path& path, const SourceLoc& loc, bool isolated, const std::string& missing);
+  int32_t push_file(const std::filesystem::path& path, const SourceLoc& loc, bool isolated,
+                    const std::function<std::string()>& missing);
+  void push(int32_t source, std::filesystem::path path, std::filesystem::path canonical, bool isolated);
+  void pop();
   bool closes_a_loop(const std::filesystem::path& canonical, const SourceLoc& loc);
 
   std::filesystem::path folder_;
   Diagnostics& diagnostics_;
   std::vector<File> files_;
+  std::set<std::filesystem::path> open_;           // canonical paths of files_
   std::map<std::filesystem::path, int32_t> read_;  // sources by path: a file included often is read once
   std::optional<Token> peeked_;
   bool quiet_ = false;

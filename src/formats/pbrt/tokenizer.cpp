@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <utility>
 
 namespace etd::pbrt {
 
@@ -75,13 +76,13 @@ void Tokenizer::skip_space() {
   }
 }
 
-std::optional<Token> Tokenizer::next() {
+std::optional<Token> Tokenizer::next(bool quiet) {
   skip_space();
   if (at_ >= text_.size()) return {};
   const size_t begin = at_;
   switch (text_[at_]) {
     case '"':
-      return string_token();
+      return string_token(quiet);
     case '[':
       return token(Token::Kind::kOpen, begin, ++at_);
     case ']':
@@ -93,11 +94,12 @@ std::optional<Token> Tokenizer::next() {
   return token(Token::Kind::kWord, begin, at_);
 }
 
-Token Tokenizer::string_token() {
+Token Tokenizer::string_token(bool quiet) {
   const size_t begin = at_++;
+  bool report_escapes = !quiet;
   while (at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\n' && text_[at_] != '\r') {
     if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
-      if (!escaped(text_[at_ + 1]) && !quiet_)
+      if (!escaped(text_[at_ + 1]) && std::exchange(report_escapes, false))
         diagnostics_.error(location(at_, at_ + 2), "unknown escape in a string",
                            "valid: \\b \\f \\n \\r \\t \\\\ \\' \\\"; folders are separated by /");
       ++at_;
@@ -108,7 +110,7 @@ Token Tokenizer::string_token() {
   Token t = token(Token::Kind::kString, begin + 1, at_);
   if (closed) ++at_;
   t.loc = location(begin, at_);
-  if (!closed && !quiet_)
+  if (!closed && !quiet)
     diagnostics_.error(t.loc, "this string is not closed", "a string ends with a \" on the line where it begins");
   return t;
 }

@@ -25,15 +25,14 @@ class Tokenizer {
   // `file` is a source of `diagnostics`; its text must stay.
   Tokenizer(int32_t file, Diagnostics& diagnostics);
 
-  // The next token, none at the end of the text. A broken string is reported and returned as far as it goes.
-  std::optional<Token> next();
-  // While quiet, broken strings are not reported: what is skipped after an error is not worth a message.
-  void set_quiet(bool quiet) { quiet_ = quiet; }
+  // The next token, none at the end of the text. A broken string is returned as far as it goes, and reported unless
+  // `quiet`: what is skipped after an error is not worth a message.
+  std::optional<Token> next(bool quiet);
   int32_t file() const { return file_; }
 
  private:
   void skip_space();
-  Token string_token();
+  Token string_token(bool quiet);
   Token token(Token::Kind kind, size_t begin, size_t end) const;
   SourceLoc location(size_t begin, size_t end) const;
 
@@ -41,7 +40,6 @@ class Tokenizer {
   Diagnostics& diagnostics_;
   size_t at_ = 0, line_start_ = 0;
   int32_t file_, line_ = 1;
-  bool quiet_ = false;
 };
 
 // A number as pbrt writes it ("1", "-.5", "+3e-4"); none when the text is anything else. Too large ones are infinite.

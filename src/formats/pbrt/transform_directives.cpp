@@ -56,24 +56,24 @@ void concat_transform(Parser& p, const Token& d) {
 }
 
 void coordinate_system(Parser& p, const Token& d) {
-  if (const auto name = p.string_argument(d, "a name")) p.coordinate_systems[name->value()] = p.state.ctm;
+  if (const auto name = p.string_argument(d, "a name")) p.coordinate_systems.set(name->value(), p.state.ctm);
 }
 
 void coord_sys_transform(Parser& p, const Token& d) {
   const auto name = p.string_argument(d, "the name of a coordinate system");
   if (!name) return;
-  const auto found = p.coordinate_systems.find(name->value());
-  if (found != p.coordinate_systems.end()) {
-    p.state.ctm = found->second;
+  if (const TransformPair* found = p.coordinate_systems.find(name->value())) {
+    p.state.ctm = *found;
     return;
   }
-  std::vector<std::string_view> names;
-  for (const auto& entry : p.coordinate_systems) names.push_back(entry.first);
-  const std::string_view near = nearest_name(name->value(), names);
-  p.diagnostics.error(name->loc, fmt::format("coordinate system \"{}\" is not defined", name->text),
-                      names.empty()  ? "Camera defines \"camera\", WorldBegin \"world\", CoordinateSystem any other"
-                      : near.empty() ? fmt::format("defined here: {}", fmt::join(names, ", "))
-                                     : fmt::format("did you mean \"{}\"?", near));
+  p.diagnostics.error(name->loc, fmt::format("coordinate system \"{}\" is not defined", name->text), [&] {
+    std::vector<std::string_view> names;
+    for (const auto& entry : p.coordinate_systems.entries()) names.push_back(entry.first);
+    const std::string_view near = nearest_name(name->value(), names);
+    return names.empty()  ? "Camera defines \"camera\", WorldBegin \"world\", CoordinateSystem any other"
+           : near.empty() ? fmt::format("defined here: {}", fmt::join(names, ", "))
+                          : fmt::format("did you mean \"{}\"?", near);
+  });
 }
 
 void active_transform(Parser& p, const Token& d) {

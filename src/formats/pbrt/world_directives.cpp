@@ -138,12 +138,12 @@ void attribute(Parser& p, const Token& d) {
   for (size_t i = 0; i < kAttributeTargets.size(); ++i) {
     if (kAttributeTargets[i] != use->model) continue;
     const bool light = i == static_cast<size_t>(AttributeTarget::kLight);
-    convert_colors(use->params, light ? ColorRole::kEmission : ColorRole::kReflectance, p.state.color_space,
-                   p.scene.folder, p.diagnostics);
-    // A later default of the same name replaces an earlier one.
-    std::vector<Param>& defaults = p.state.defaults[i];
-    defaults.insert(defaults.begin(), std::make_move_iterator(use->params.begin()),
-                    std::make_move_iterator(use->params.end()));
+    p.convert_colors(use->params, light ? ColorRole::kEmission : ColorRole::kReflectance);
+    // A later default of the same name replaces an earlier one; of one directive, the first counts.
+    for (auto param = use->params.rbegin(); param != use->params.rend(); ++param) {
+      const std::string name = param->name;
+      p.defaults.set({static_cast<AttributeTarget>(i), name}, std::move(*param));
+    }
     return;
   }
   p.diagnostics.error(use->loc, fmt::format("Attribute cannot set defaults of \"{}\"", use->model),
@@ -203,19 +203,9 @@ void include(Parser& p, const Token& d) {
     p.tokens.push_included(name->value(), name->loc, false);
 }
 
-// An imported file starts with the state of here and cannot change it.
 void import(Parser& p, const Token& d) {
   const auto name = p.string_argument(d, "the name of a file");
-  if (!name || !p.tokens.push_included(name->value(), name->loc, true)) return;
-  const GraphicsState outside = p.state;
-  const size_t outside_first = std::exchange(p.first_block, p.blocks.size());
-  const auto outside_systems = p.coordinate_systems;
-  p.read_directives();
-  p.report_open_blocks(p.first_block);
-  p.first_block = outside_first;
-  p.coordinate_systems = outside_systems;
-  p.state = outside;
-  p.tokens.pop_isolated();
+  if (name && p.tokens.push_included(name->value(), name->loc, true)) p.begin_import();
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "render/byte_count.h"
+#include "core/byte_count.h"
 
 #include <charconv>
 
