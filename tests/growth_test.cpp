@@ -5,6 +5,9 @@
 
 #include "document_block.h"
 #include "formats/pbrt/reader.h"
+#include "io/image.h"
+#include "io/image_limits.h"
+#include "io/obj.h"
 #include "scene/compile.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
@@ -226,6 +229,45 @@ TEST(Growth, ManyParametersOfOneShape) {
   world += repeated(" \"float radius\" 1", 50'000);
   const Compiled c(world);
   EXPECT_EQ(c.diagnostics.error_count(), 99'999);
+}
+
+// Sizes of terabytes in headers of a few bytes, which the libraries that read them believe.
+TEST(Growth, HeadersOfImagesAreHeldAgainstTheirFiles) {
+  using namespace std::string_literals;
+  const TempFolder folder;
+  const auto error = [&](const std::string& name, const std::string& bytes) {
+    return read_image(folder.write(name, bytes)).error;
+  };
+  EXPECT_EQ(error("a.exr", "\x76\x2f\x31\x01\x02\0\0\0owner\0string\0\0\x94\x35\x77RRRRRRRRRRRR"s),
+            "the attribute \"owner\" of its header should have 2000000000 bytes, but only 12 follow");
+  EXPECT_EQ(error("a.gif", "GIF89a\xff\xff\xff\xff\0\0\0"s).substr(0, 48),
+            "its 65535 x 65535 pixels take 16384 MiB in memor");
+  EXPECT_EQ(error("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n").substr(0, 51),
+            "its 100000 x 100000 pixels take 114441 MiB in memor");
+  // A progressive JPEG keeps all its coefficients.
+  EXPECT_NE(error("a.jpg", "\xff\xd8\xff\xc2\0\x11\x08\xff\xdc\xff\xdc\x03\1\x22\0\2\x11\0\3\x11\0"s)
+                .find("the limit is 256M; --limit unpacked=SIZE raises it"),
+            std::string::npos);
+  EXPECT_EQ(image_size_problem(100, 100, 3, 30, {}), "");  // small ones may be packed as well as they can
+}
+
+TEST(Growth, FacesEndAtTheLimit) {
+  const TempFolder folder;
+  Limits limits;
+  limits.corners = 5;
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const std::string tail = "the limit is 5; --limit corners=N raises it";
+  EXPECT_EQ(read_obj(folder.write("a.obj", vertices + "f 1 2 3 4 1 2\n"), limits).problems.at(0),
+            "line 5: \"f\" has too many values; " + tail);
+  EXPECT_TRUE(read_obj(folder.write("b.obj", vertices + "f 1 2 3 4\n"), limits).problems.empty());
+  const std::string off = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  EXPECT_EQ(read_off(folder.write("a.off", off + "6 0 1 2 3 0 1\n"), limits).problems.at(0),
+            "line 7: a face of too many corners; " + tail);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  EXPECT_EQ(read_ply(folder.write("a.ply", ply + "6 0 1 2 3 0 1\n"), limits).problems.at(0),
+            "line 14: face 0: a face of too many corners; " + tail);
 }
 
 TEST(Limits, AreSetByName) {

@@ -103,7 +103,7 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
         (missing.empty() ? "" : missing + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
     return Aperture();
   };
-  const ImageResult result = read_finite_image(folder / name);
+  const ImageResult result = read_finite_image(folder / name, {{}, {}, p.diagnostics().limits()});
   if (!result.image) return fail(fmt::format("cannot read image \"{}\": {}", name, result.error));
   for (const std::string& note : result.notes)
     p.diagnostics().note(file.value_loc, fmt::format("image \"{}\": {}", name, note));

@@ -14,6 +14,7 @@
 
 #include "io/file.h"
 #include "io/image_channels.h"
+#include "io/image_limits.h"
 #include "io/oiio_setup.h"
 #include "io/pfm.h"
 #include "io/radiance.h"
@@ -141,7 +142,14 @@ std::string read_picture(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, cons
   return {};
 }
 
-ImageResult read_open_image(OIIO::ImageInput& in, const ImageOptions& options) {
+// A file that states a size which it can't be worth. Tiles may be larger than the image, and it than its window.
+std::string size_problem(const OIIO::ImageSpec& spec, const Window& window, uint64_t file_bytes, const Limits& limits) {
+  const auto across = static_cast<uint64_t>(std::max({spec.width, spec.tile_width, window.full_width})),
+             down = static_cast<uint64_t>(std::max({spec.height, spec.tile_height, window.full_height}));
+  return image_size_problem(across, down, spec.pixel_bytes(true), file_bytes, limits);
+}
+
+ImageResult read_open_image(OIIO::ImageInput& in, uint64_t file_bytes, const ImageOptions& options) {
   const ChannelChoice choice = choose_channels(in, options.layer);
   if (!choice.error.empty()) return {{}, choice.error, {}, {}, choice.needs_name};
   const OIIO::ImageSpec spec = in.spec();
@@ -152,6 +160,7 @@ ImageResult read_open_image(OIIO::ImageInput& in, const ImageOptions& options) {
       spec.depth > 1)
     return fail(
         fmt::format("it has {} x {} x {} pixels, which no image here can have", spec.width, spec.height, spec.depth));
+  if (std::string error = size_problem(spec, window, file_bytes, options.limits); !error.empty()) return fail(error);
   if (spec.deep) return fail("its pixels are deep, with any number of values in each, which is not supported");
   if (window.x0() >= window.x1() || window.y0() >= window.y1())
     return fail("all of its pixels lie outside of its display window");
@@ -320,11 +329,13 @@ ImageResult read_image(const std::filesystem::path& path, const ImageOptions& op
     if (is_pfm(path) || is_radiance(first_bytes(path, 2))) {
       const FileBytes file = read_file(path);
       if (!file.error.empty()) return fail(file.error);
-      return is_pfm(path) ? decode_pfm(file.bytes) : decode_radiance(file.bytes);
+      return is_pfm(path) ? decode_pfm(file.bytes) : decode_radiance(file.bytes, options.limits);
     }
-    std::string error;
+    std::string error = image_header_problem(path, options.limits);
+    if (!error.empty()) return fail(error);
+    const auto file_bytes = std::filesystem::file_size(path, failed);
     const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
-    return in ? read_open_image(*in, options) : fail(error);
+    return in ? read_open_image(*in, failed ? 0 : file_bytes, options) : fail(error);
   } catch (const std::bad_alloc&) {
     return fail("there is not enough memory for it");
   } catch (const std::exception& error) {
@@ -342,6 +353,7 @@ size_t image_bytes(const std::filesystem::path& path, const ImageOptions& option
   try {
     constexpr size_t kLongestHeader = 1 << 16;
     if (const std::string start = first_bytes(path, kLongestHeader); is_radiance(start)) return radiance_bytes(start);
+    if (!image_header_problem(path, options.limits).empty()) return 0;
     std::string error;
     const std::unique_ptr<OIIO::ImageInput> in = open_image(path, error);
     if (in == nullptr) return 0;

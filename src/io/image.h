@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/half.h"
+#include "params/limits.h"
 
 namespace etd {
 
@@ -132,6 +133,7 @@ struct ImageResult {
 struct ImageOptions {
   std::optional<ImageEncoding> encoding;  // of integers; otherwise what the file says, or sRGB
   std::string layer;                      // the part or layer of an EXR file; empty: the one that has R, G and B
+  Limits limits = {};                     // an image that is much larger than its file is an error
 };
 
 // Reads PNG, JPEG, TGA, TIFF, EXR, HDR, PFM and what else OpenImageIO knows. 8-bit files stay 8-bit and half files

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/file.h"
+#include "io/image_limits.h"
 #include "spectrum/color_space.h"
 
 namespace etd {
@@ -153,12 +154,14 @@ std::array<float, 3> color_of(const Rgbe& pixel, bool xyz) {
 
 }  // namespace
 
-ImageResult decode_radiance(std::string_view bytes) {
+ImageResult decode_radiance(std::string_view bytes, const Limits& limits) {
   ImageResult result;
   std::string_view left = bytes;
   const Header header = take_header(left);
   if (!header.error.empty()) return result.error = header.error, result;
   const auto width = static_cast<size_t>(header.width()), height = static_cast<size_t>(header.height());
+  result.error = image_size_problem(width, height, 3 * sizeof(float), bytes.size(), limits);
+  if (!result.error.empty()) return result;
   std::vector<float> texels;
   std::vector<Rgbe> row(static_cast<size_t>(header.columns));
   // Row by row, so that a size that the file does not hold is found before there is memory for it.

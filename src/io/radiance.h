@@ -13,7 +13,7 @@ namespace etd {
 inline bool is_radiance(std::string_view bytes) { return bytes.substr(0, 2) == "#?"; }
 
 // The picture with row 0 at its top and column 0 at its left. Values are the file's, XYZ as linear Rec. 709.
-ImageResult decode_radiance(std::string_view bytes);
+ImageResult decode_radiance(std::string_view bytes, const Limits& limits = {});
 
 // Bytes of its texels in memory by what the header says; 0 if that cannot be read.
 size_t radiance_bytes(std::string_view bytes);

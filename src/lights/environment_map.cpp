@@ -141,7 +141,7 @@ std::optional<Image> read_light_image(const ParamReader& params, const std::file
   if (data.kept)
     if (const auto known = data.kept->find(key); known != data.kept->end()) return known->second;
   Diagnostics& diagnostics = params.diagnostics();
-  ImageResult result = read_finite_image(folder / name, {{}, layer_name(params)});
+  ImageResult result = read_finite_image(folder / name, {{}, layer_name(params), diagnostics.limits()});
   if (!result.image)
     diagnostics.error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
                       result.needs_layer ? kLayerHint : missing_file_hint({folder}, name));

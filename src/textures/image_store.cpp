@@ -40,12 +40,13 @@ int32_t ImageStore::add(const Param& filename, std::string_view encoding, const 
   }
   const fs::path path = folder_ / filename.strings[0];
   const std::string options_text = fmt::format("{}\n{}", encoding, layer);
-  for (size_t i = 0; i < requests_.size(); ++i)
-    if (requests_[i].path == path && requests_[i].options_text == options_text && requests_[i].levels == levels)
-      return static_cast<int32_t>(i);
-  requests_.push_back({path, {parsed, layer}, options_text, levels, filename.value_loc, filename.strings[0]});
+  const auto [known, is_new] =
+      index_of_.try_emplace({path.string(), options_text, levels}, static_cast<int32_t>(requests_.size()));
+  if (!is_new) return known->second;
+  requests_.push_back(
+      {path, {parsed, layer, diagnostics.limits()}, options_text, levels, filename.value_loc, filename.strings[0]});
   table_.images.emplace_back();
-  return static_cast<int32_t>(requests_.size()) - 1;
+  return known->second;
 }
 
 void ImageStore::load(const TextureMemory& memory, Diagnostics& diagnostics) {
