@@ -117,7 +117,8 @@ void check_ways_back(const CameraModel& m, uint64_t seed, WrongShare& same) {
       same.add(differ(double{c->weight} * double{c->pdf}, position * direction / cosine, 1e-4), where);
     else
       same.add(differ(c->weight, parallel ? position / cosine : direction / d2, 1e-4), where);
-    const auto back = m.we(Ray{p + c->wi * c->distance, -c->wi, kInfinity, ray.time}, 2);
+    // A pinhole knows only rays from its very point, which adding wi would round away.
+    const auto back = m.we(Ray{c->is_delta ? ray.o : p + c->wi * c->distance, -c->wi, kInfinity, ray.time}, 2);
     same.add(!back && !m.blurs_alike, where);
     if (back) same.add(differ(back->we(), c->importance.we(), 1e-3), where);
   }

@@ -12,7 +12,7 @@ namespace {
 // whose density ends inside cells); differences below it say nothing.
 constexpr double kIntegrationError = 3e-4;
 constexpr double kMinExpected = 20.0;
-constexpr size_t kCells = 256;
+constexpr size_t kCells = 256, kTiltedCells = 64;  // about
 
 struct Setting {
   Vec3 wo;
@@ -30,7 +30,10 @@ struct Integrals {
 class Histogram {
  public:
   Histogram(const ScatterModel& model, const Setting& setting, size_t samples, uint64_t seed)
-      : model_(model), setting_(setting), grid_(pilots(samples / 2, seed), std::max<size_t>(samples / 2 / kCells, 1)) {
+      : model_(model),
+        setting_(setting),
+        grid_(pilots(samples / 2, seed),
+              std::max<size_t>(samples / 2 / (model.is_tilted() ? kTiltedCells : kCells), 1)) {
     observed_.assign(grid_.cell_count(), 0.0);
     HashStream numbers(hash_combine(seed, 2));
     for (size_t i = 0; i < samples; ++i) {
