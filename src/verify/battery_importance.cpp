@@ -117,8 +117,9 @@ void check_ways_back(const CameraModel& m, uint64_t seed, WrongShare& same) {
       same.add(differ(double{c->weight} * double{c->pdf}, position * direction / cosine, 1e-4), where);
     else
       same.add(differ(c->weight, parallel ? position / cosine : direction / d2, 1e-4), where);
-    // A pinhole knows only rays from its very point, which adding wi would round away.
-    const auto back = m.we(Ray{c->is_delta ? ray.o : p + c->wi * c->distance, -c->wi, kInfinity, ray.time}, 2);
+    // From the very point of the lens: p + wi distance would be beside it by the rounding of p, and a camera at the
+    // origin has none.
+    const auto back = m.we(Ray{ray.o, -c->wi, kInfinity, ray.time}, 2);
     same.add(!back && !m.blurs_alike, where);
     if (back) same.add(differ(back->we(), c->importance.we(), 1e-3), where);
   }
