@@ -49,8 +49,10 @@ TEST(Workers, ManyThreadsCanBeHadHere) {
 
 TEST(Memory, APeakIsNoSmallerThanWhatIsHeld) {
   const std::vector<char> held(100 << 20, 'x');
-  EXPECT_GE(memory_bytes(), held.size());
-  EXPECT_GE(peak_memory_bytes(), memory_bytes());
+  // The order matters, since reading takes memory too; and kernels count pages in batches for each processor.
+  const uint64_t now = memory_bytes();
+  EXPECT_GE(now, held.size());
+  EXPECT_GE(peak_memory_bytes() + (1 << 20), now);
   EXPECT_LT(peak_memory_bytes(), uint64_t{1} << 40);
 }
 
