@@ -23,24 +23,28 @@ struct Variant {
   std::vector<std::pair<std::string, std::string>> set;
   std::string sampler = "sobol";
   uint32_t spp = 0;
+  std::string integrator = "path";
 };
+
+// All that paths from lights can bring, by paths from the camera: what they are compared with.
+Variant seen_by_light(uint32_t spp) { return {"mis", {{"integrator.paths", "from_lights"}}, "sobol", spp}; }
 
 struct Scene {
   std::string name;
-  uint32_t spp_naive, spp_next_event, spp_mis;
+  uint32_t spp_naive, spp_next_event, spp_mis, spp_light;
   uint32_t spp_heuristics = 0, spp_uniform = 0;  // of the other heuristics and of lights all alike; 0: not compared
 };
-const Scene kScenes[] = {{"conductor_box", 320, 128, 128, 128, 0},
-                         {"textured_room", 512, 128, 128, 0, 128},
-                         {"sky_instances", 448, 384, 128, 192, 128},
-                         {"glass_caustic", 512, 256, 256, 0, 0},
-                         {"lamps", 1024, 512, 512, 0, 512},
-                         {"moving_lamps", 640, 896, 640},
-                         {"window_room", 1024, 320, 320},
-                         {"bumpy_room", 704, 704, 288},
-                         {"bumpy_glass", 320, 256, 160}};
+const Scene kScenes[] = {{"conductor_box", 320, 128, 128, 128, 128, 0},
+                         {"textured_room", 512, 128, 128, 128, 0, 128},
+                         {"sky_instances", 448, 384, 128, 128, 192, 128},
+                         {"glass_caustic", 512, 256, 256, 128, 0, 0},
+                         {"lamps", 1024, 512, 512, 512, 0, 512},
+                         {"moving_lamps", 640, 896, 640, 512},
+                         {"window_room", 1024, 320, 320, 320},
+                         {"bumpy_room", 704, 704, 288, 288},
+                         {"bumpy_glass", 320, 256, 160, 160}};
 
-// All are compared with the first.
+// All are compared with the first, light with what it can see of it.
 std::vector<Variant> variants(const Scene& s) {
   std::vector<Variant> all{{"mis", {}, "sobol", s.spp_mis},
                            {"naive", {{"integrator.mode", "naive"}}, "sobol", s.spp_naive},
@@ -53,6 +57,7 @@ std::vector<Variant> variants(const Scene& s) {
       all.push_back({name + " heuristic", {{"integrator.misheuristic", name}}, "sobol", s.spp_heuristics});
   if (s.spp_uniform > 0)
     all.push_back({"lights all alike", {{"integrator.lightsampler", "uniform"}}, "sobol", s.spp_uniform});
+  all.push_back({"light", {}, "sobol", s.spp_light, "light"});
   return all;
 }
 
@@ -69,6 +74,7 @@ Film render_variant(const Scene& scene, const Variant& variant, uint64_t seed, u
   o.replicates = kReplicates;
   o.seed = seed;
   o.sampler = variant.sampler;
+  o.integrator = variant.integrator;
   o.tile_size = 4;
   o.features = false;
   o.set = variant.set;
@@ -97,9 +103,11 @@ void expect_all_agree(const Scene& scene, uint32_t more = 1) {
   const Film reference = render_variant(scene, all[0], 100, more);
   for (size_t i = 1; i < all.size(); ++i) {
     const std::string name = fmt::format("{}, {} against {}", scene.name, all[i].name, all[0].name);
+    const bool sees_all = all[i].integrator == "path";
+    const Variant against = sees_all ? all[0] : seen_by_light(scene.spp_mis);
     const auto films = [&](const TestRun& run) {
       const uint64_t seed = 100 + run.fresh_seeds;
-      return std::pair(run.is_first() ? reference : render_variant(scene, all[0], seed, more * run.more),
+      return std::pair(run.is_first() && sees_all ? reference : render_variant(scene, against, seed, more * run.more),
                        render_variant(scene, all[i], seed + i, more * run.more));
     };
     const std::vector<FilmTest> tests = expect_agreement(name, level(), films);

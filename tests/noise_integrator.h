@@ -13,24 +13,19 @@ class NoiseIntegrator : public Integrator {
   explicit NoiseIntegrator(const FilmSettings& film, int tile_size = 16) : film_(film), tile_(tile_size) {}
 
   IntegratorTraits traits() const override { return {}; }
-  size_t work_items(const Pass&) const override {
+  size_t work_items(const Pass&, uint32_t) const override {
     return static_cast<size_t>(tiles(film_.crop.width())) * static_cast<size_t>(tiles(film_.crop.height()));
   }
-  void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override {
+  void render(const Pass& pass, uint32_t, size_t item, Sink& sink) override {
     const int columns = tiles(film_.crop.width());
     const int x0 = film_.crop.x0 + static_cast<int>(item) % columns * tile_;
     const int y0 = film_.crop.y0 + static_cast<int>(item) / columns * tile_;
     for (int y = y0; y < std::min(y0 + tile_, film_.crop.y1); ++y)
-      for (int x = x0; x < std::min(x0 + tile_, film_.crop.x1); ++x)
-        for (uint32_t r = 0; r < film_.replicates; ++r) {
-          PixelSums sums;
-          for (uint32_t i = pass.begin; i < pass.end; ++i) {
-            const PixelSample s = sample(x, y, r, i);
-            counts.rays += s.rays;
-            sums.add(s);
-          }
-          film.add(x, y, r, sums);
-        }
+      for (int x = x0; x < std::min(x0 + tile_, film_.crop.x1); ++x) {
+        Sink::Pixel pixel(sink, x, y);
+        for (uint32_t r = pass.first_replicate; r < pass.end_replicate; ++r)
+          for (uint32_t i = pass.begin; i < pass.end; ++i) pixel.add(r, i, sample(x, y, r, i));
+      }
   }
 
  private:

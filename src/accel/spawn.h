@@ -25,4 +25,10 @@ ETD_FN Ray shadow_ray(const SurfacePoint& from, const SurfacePoint& to, float ti
   return {o, d, 1.0f - shortening, time};
 }
 
+// The segment from a surface to a point that lies on no surface, for occluded(): d is the whole segment.
+ETD_FN Ray shadow_ray(const SurfacePoint& from, Point3 to, float time = 0) {
+  const Point3 o = offset_origin(from, to - from.p);
+  return {o, to - o, 1.0f, time};
+}
+
 }  // namespace etd

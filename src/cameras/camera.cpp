@@ -69,6 +69,21 @@ std::optional<CameraConnection> Camera::sample_wi(Point3 p, Vec2 u_lens, float t
   return result && on_film(result->importance.film, margin) ? result : std::nullopt;
 }
 
+bool Camera::film_repeats() const {
+  return dispatch<bool, Cameras>(storage_, [](const auto& c) {
+    return requires { c.repeated(Vec2(), 0, 0); };
+  });
+}
+
+Vec2 Camera::repeated(Vec2 film, int column, int row) const {
+  return dispatch<Vec2, Cameras>(storage_, [&]([[maybe_unused]] const auto& c) {
+    if constexpr (requires { c.repeated(film, column, row); })
+      return c.repeated(film, column, row);
+    else
+      return film;
+  });
+}
+
 std::span<const ModelDecl* const> camera_models() {
   static const ModelDecl* const all[] = {&PerspectiveCamera::decl(), &OrthographicCamera::decl(),
                                          &SphericalCamera::decl()};

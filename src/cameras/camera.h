@@ -49,6 +49,13 @@ class Camera {
   // [0, 1)^2. Nothing if the camera does not see p through that point on the film or within the margin.
   std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens, float time, float margin = 0) const;
 
+  // Whether the film goes on beyond its edges, where the same directions come again: a filter at an edge then takes
+  // light from there, and brings light from there to pixels.
+  bool film_repeats() const;
+  // Where a film position stands again in the copy of the film that is `column` widths to the right and `row` heights
+  // further down; only of a film that repeats.
+  Vec2 repeated(Vec2 film, int column, int row) const;
+
  private:
   bool on_film(Vec2 film, float margin) const;
 

@@ -58,6 +58,17 @@ Vec2 SphericalCamera::film(Vec3 d) const {
   return {pixels(st.x, pixel.x), pixels(st.y, pixel.y)};
 }
 
+Vec2 SphericalCamera::repeated(Vec2 film, int column, int row) const {
+  Vec2 st{film.x * pixel.x, film.y * pixel.y};
+  const bool odd_column = column % 2 != 0, odd_row = row % 2 != 0;
+  if (equal_area) {  // each edge that is crossed turns the square by half a turn
+    if (odd_column != odd_row) st = {1.0f - st.x, 1.0f - st.y};
+  } else if (odd_row) {  // beyond a pole the meridian on the other side goes on
+    st = {st.x < 0.5f ? st.x + 0.5f : st.x - 0.5f, 1.0f - st.y};
+  }
+  return {(st.x + static_cast<float>(column)) / pixel.x, (st.y + static_cast<float>(row)) / pixel.y};
+}
+
 // Of a unit direction of the world, in which the axes need be neither at right angles nor of length 1.
 std::optional<CameraImportance> SphericalCamera::along(Vec3 d) const {
   const Vec3d a = to_double(x), b = to_double(y), c = to_double(z), w = to_double(d);

@@ -23,6 +23,7 @@ struct SphericalCamera {
   std::optional<CameraImportance> we(Point3 o, Vec3 d) const;
   std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens) const;
   void move(const Transform& t);
+  Vec2 repeated(Vec2 film, int column, int row) const;
 
  private:
   std::optional<CameraImportance> along(Vec3 d) const;

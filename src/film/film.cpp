@@ -11,6 +11,9 @@ size_t pixel_count(const PixelBounds& crop) {
   return crop.empty() ? 0 : static_cast<size_t>(crop.width()) * static_cast<size_t>(crop.height());
 }
 
+// R, G and B of emission, direct and indirect.
+constexpr size_t kSplatSlots = 9;
+
 // Var(mean) from the spread of `means` with weights `counts` (sum n): a replicate of n_r samples has variance s^2 /
 // n_r, so sum n_r (m_r - m)^2 / (R - 1) estimates s^2 without bias, for equal counts and others alike.
 std::array<double, 4> spread_of_replicates(const std::vector<std::array<double, 4>>& means,
@@ -31,6 +34,7 @@ Film::Film(const FilmSettings& settings)
       strongest_(pixel_count(settings.crop)),
       ids_(settings.ids ? pixel_count(settings.crop) : 0) {
   const PixelBounds& c = settings_.crop;
+  if (settings.splats) splats_.emplace(pixel_count(settings.crop) * kSplatSlots);
   assert(settings_.replicates > 0);
   assert(c.empty() || (c.x0 >= 0 && c.y0 >= 0 && c.x1 <= settings_.width && c.y1 <= settings_.height));
   static_cast<void>(c);
@@ -50,6 +54,25 @@ size_t Film::offset(int x, int y, uint32_t replicate) const {
 void Film::add(int x, int y, uint32_t replicate, const PixelSums& sums) {
   double* to = sums_.data() + offset(x, y, replicate);
   for_each_channel(sums, settings_, [&to](double v) { *to++ += v; });
+}
+
+void Film::splat(int x, int y, int depth, const Spectrum& light) {
+  const size_t first = pixel(x, y) * kSplatSlots + static_cast<size_t>(std::min(depth, 2)) * 3;
+  for (int lane = 0; lane < 3; ++lane)
+    if (light[lane] != 0.0f) splats_->add(first + static_cast<size_t>(lane), static_cast<double>(light[lane]));
+}
+
+void Film::fold_splats(int y, uint32_t replicate, uint64_t light_paths, uint64_t rays) {
+  const double pixels = static_cast<double>(settings_.width) * static_cast<double>(settings_.height);
+  for (int x = settings_.crop.x0; x < settings_.crop.x1; ++x) {
+    PixelSums sums;
+    size_t slot = pixel(x, y) * kSplatSlots;
+    for (std::array<double, 3>* part : {&sums.emission, &sums.direct, &sums.indirect})
+      for (double& v : *part) v = splats_->take(slot++) / pixels;
+    sums.count = static_cast<double>(light_paths) / pixels;
+    sums.rays = static_cast<double>(rays) / pixels;
+    add(x, y, replicate, sums);
+  }
 }
 
 PixelSums Film::sums(int x, int y, uint32_t replicate) const {
@@ -95,8 +118,8 @@ std::array<double, 4> Film::standard_error(int x, int y) const {
 size_t Film::bytes() const { return bytes_for(settings_); }
 
 size_t Film::bytes_for(const FilmSettings& s) {
-  return pixel_count(s.crop) *
-         (s.replicates * film_channels(s) * sizeof(double) + sizeof(StrongestSample) + (s.ids ? sizeof(PixelIds) : 0));
+  return pixel_count(s.crop) * (s.replicates * film_channels(s) * sizeof(double) + sizeof(StrongestSample) +
+                                (s.ids ? sizeof(PixelIds) : 0) + (s.splats ? SplatBuffer::bytes_for(kSplatSlots) : 0));
 }
 
 }  // namespace etd

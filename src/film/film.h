@@ -2,12 +2,14 @@
 // (docs/architecture.md, "The estimate").
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/bounds.h"
 #include "core/transform.h"
 #include "film/pixel_sample.h"
 #include "film/sensor.h"
+#include "film/splat_buffer.h"
 #include "film/strongest.h"
 
 namespace etd {
@@ -23,6 +25,8 @@ struct FilmSettings {
   bool positions = false;     // beside the features, if there are any
   bool alpha = false;         // and the light of what it covers
   bool ids = false;           // of objects and materials
+  bool splats = false;        // light comes as splats, one replicate after the other
+  bool correlated = false;    // errors of pixels depend on each other, and only replicates tell that of a region
   Transform feature_space{};  // from the recentred world to the space of the layers of normals and positions
   Sensor sensor{};            // through which samples go before they are added
 };
@@ -41,6 +45,13 @@ class Film {
   // Remembers the ids if the pixel has none of a sample that is as near to its centre; only of a film with ids.
   void offer(int x, int y, const PixelIds& candidate) { ids_[pixel(x, y)].offer(candidate); }
   const SurfaceIds& ids(int x, int y) const { return ids_[pixel(x, y)].ids; }
+  // Adds light that came to a pixel inside the crop after `depth` scattering events; only of a film with splats. Any
+  // thread may add to any pixel.
+  void splat(int x, int y, int depth, const Spectrum& light);
+  // Makes all splats of a row, which came from `light_paths` paths and brought `rays` rays about in the whole image,
+  // samples of the replicate: as many for each pixel as there were paths for each pixel of the full image. Different
+  // rows may be folded concurrently.
+  void fold_splats(int y, uint32_t replicate, uint64_t light_paths, uint64_t rays);
   // What has been accumulated so far for a pixel and replicate.
   PixelSums sums(int x, int y, uint32_t replicate) const;
   // All replicates folded in their order.
@@ -60,7 +71,8 @@ class Film {
   FilmSettings settings_;
   std::vector<double> sums_;  // [pixel][replicate][channel]
   std::vector<StrongestSample> strongest_;
-  std::vector<PixelIds> ids_;  // empty without ids
+  std::vector<PixelIds> ids_;          // empty without ids
+  std::optional<SplatBuffer> splats_;  // [pixel][emission, direct, indirect][lane]
 };
 
 }  // namespace etd

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "accel/spawn.h"
+#include "integrators/light.h"
 #include "integrators/path_record.h"
 #include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
@@ -53,9 +54,24 @@ const ModelDecl& PathIntegrator::decl() {
         .default_value = std::string("exact"),
         .choices = {"exact", "bent"},
         .doc = "Shading normals as they are, or bent towards the viewer where a mirror would show the inside of the "
-               "surface, which is black."}}};
+               "surface, which is black."},
+       {.name = "paths",
+        .type = ParamType::kString,
+        .default_value = std::string("all"),
+        .choices = {"all", "from_lights"},
+        .doc = "Which paths to render: all, or those alone that the integrator light finds too. It misses infinite "
+               "lights seen directly, and surfaces that reflect like mirrors or refract like glass between the camera "
+               "and what it sees."}}};
   return d;
 }
+
+namespace {
+
+bool has_delta_lights(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.is_delta(); });
+}
+
+}  // namespace
 
 PathSettings PathIntegrator::settings(const ParamReader& p) {
   PathSettings s;
@@ -72,7 +88,40 @@ PathSettings PathIntegrator::settings(const ParamReader& p) {
   s.heuristic = mis_heuristic(p.string("misheuristic"));
   s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
   s.bent_normals = p.string("shadingnormals") == "bent";
+  s.from_lights = p.string("paths") == "from_lights";
   return s;
+}
+
+std::unique_ptr<Integrator> PathIntegrator::create(const ParamReader& p, const Scene& scene,
+                                                   const IntegratorContext& context) {
+  return std::make_unique<PathIntegrator>(scene, settings(p), context);
+}
+
+std::vector<Variant> PathIntegrator::variants(const Scene& scene, int max_depth) {
+  // Without roulette, longer paths cost too much.
+  constexpr int kLongestWithoutRoulette = 64;
+  const bool delta = has_delta_lights(scene);
+  const std::string too_short = max_depth < 2 ? "paths have one event at most" : "";
+  const std::string too_long = max_depth > kLongestWithoutRoulette
+                                   ? fmt::format("paths may have {} events; --max-depth {} would make it apply",
+                                                 max_depth, kLongestWithoutRoulette)
+                                   : "";
+  return {
+      {.name = "mis"},
+      {.name = "naive",
+       .set = {{"mode", "naive"}},
+       .not_applicable = delta ? "no ray meets lights without extent" : ""},
+      {.name = "next_event", .set = {{"mode", "next_event"}}, .samples_lights_alone = true},
+      {.name = "independent", .sampler = "independent"},
+      {.name = "balance heuristic", .set = {{"misheuristic", "balance"}}},
+      {.name = "lights all alike",
+       .set = {{"lightsampler", "uniform"}},
+       .not_applicable = scene.lights.size() < 2 ? "there is one light at most" : ""},
+      {.name = "roulette from 1", .set = {{"roulettedepth", "1"}}, .not_applicable = too_short},
+      {.name = "no roulette",
+       .set = {{"roulettedepth", "1048576"}},
+       .not_applicable = too_short.empty() ? too_long : too_short},
+  };
 }
 
 PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context)
@@ -81,13 +130,12 @@ PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings,
 }
 
 std::string PathIntegrator::bias() const {
-  const bool delta =
-      std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& l) { return l.is_delta(); });
   std::string bias;
-  if (settings_.mode == PathMode::kNaive && delta) bias = "lights that no ray meets are left out";
+  if (settings_.mode == PathMode::kNaive && has_delta_lights(scene_)) bias = "lights that no ray meets are left out";
   if (settings_.indirect)
     bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
                         settings_.max_depth);
+  if (settings_.from_lights) bias += fmt::format("{}{}", bias.empty() ? "" : "; ", kUnseenByLightPaths);
   if (settings_.bent_normals) bias += fmt::format("{}shading normals are bent", bias.empty() ? "" : "; ");
   return bias;
 }
@@ -193,7 +241,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     Hit hit;
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
-      for (uint32_t light : scene_.infinite_lights) add_emission(depth, light, nullptr);
+      if (depth > 0 || !settings_.from_lights)
+        for (uint32_t light : scene_.infinite_lights) add_emission(depth, light, nullptr);
       recorder.end(PathEnd::kEscaped);
       break;
     }
@@ -241,6 +290,10 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
       break;
     }
     recorder.scatter(*s);
+    if (settings_.from_lights && depth == 0 && s->is_delta()) {
+      recorder.end(PathEnd::kLeftOut);
+      break;
+    }
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;

@@ -3,6 +3,7 @@
 
 #include "integrators/mis.h"
 #include "integrators/pixel_integrator.h"
+#include "integrators/variant.h"
 #include "params/declaration.h"
 #include "scene/scene.h"
 
@@ -23,15 +24,20 @@ struct PathSettings {
   MisHeuristic heuristic = MisHeuristic::kPower;
   LightChoice light_choice = LightChoice::kPower;
   bool bent_normals = false;  // materials/bent_normal.h
+  bool from_lights = false;   // only what paths from lights can bring (light.h)
 };
 
 class PathIntegrator : public PixelIntegrator {
  public:
+  static constexpr IntegratorTraits kTraits{};
   static const ModelDecl& decl();
   static PathSettings settings(const ParamReader& params);
+  static std::unique_ptr<Integrator> create(const ParamReader& p, const Scene& scene, const IntegratorContext& context);
+  static std::vector<Variant> variants(const Scene& scene, int max_depth);
 
   PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context);
 
+  IntegratorTraits traits() const override { return kTraits; }
   std::string bias() const override;
 
  protected:

@@ -57,7 +57,8 @@ struct PathVertex {
   std::optional<RouletteRecord> roulette;
 };
 
-enum class PathEnd { kEscaped, kDepth, kAbsorbed, kRoulette };
+// kLeftOut: the rest of the path was not to be rendered.
+enum class PathEnd { kEscaped, kDepth, kAbsorbed, kRoulette, kLeftOut };
 
 struct PathRecord {
   SampleId id;

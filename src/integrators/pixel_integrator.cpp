@@ -11,7 +11,7 @@ size_t tiles_along(int pixels, int tile) { return static_cast<size_t>((pixels + 
 
 }  // namespace
 
-size_t PixelIntegrator::work_items(const Pass&) const {
+size_t PixelIntegrator::work_items(const Pass&, uint32_t) const {
   return tiles_along(context_.crop.width(), context_.tile_size) *
          tiles_along(context_.crop.height(), context_.tile_size);
 }
@@ -39,7 +39,7 @@ bool PixelIntegrator::replay(const SampleId& id, PathRecord& record) const {
   return true;
 }
 
-void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const {
+void PixelIntegrator::render(const Pass& pass, uint32_t, size_t item, Sink& sink) {
   const size_t across = tiles_along(context_.crop.width(), context_.tile_size);
   const int x0 = context_.crop.x0 + static_cast<int>(item % across) * context_.tile_size;
   const int y0 = context_.crop.y0 + static_cast<int>(item / across) * context_.tile_size;
@@ -47,22 +47,10 @@ void PixelIntegrator::render(const Pass& pass, size_t item, Film& film, ItemCoun
   const int y1 = std::min(y0 + context_.tile_size, context_.crop.y1);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      StrongestSample strongest;
-      PixelIds ids;
-      for (uint32_t replicate = 0; replicate < context_.replicates; ++replicate) {
-        PixelSums sums;
-        for (uint32_t index = pass.begin; index < pass.end; ++index) {
-          PixelSample s = sample(x, y, replicate, index);
-          const uint32_t number = index * context_.replicates + replicate;
-          ids.offer({s.distance2, number, s.ids});
-          admit({x, y, number}, film.settings().sensor, s, counts.invalid);
-          strongest.offer({static_cast<float>(sums.add(s)), number});
-          counts.rays += s.rays;
-        }
-        film.add(x, y, replicate, sums);
-      }
-      film.offer(x, y, strongest);
-      if (film.settings().ids) film.offer(x, y, ids);
+      Sink::Pixel pixel(sink, x, y);
+      for (uint32_t replicate = pass.first_replicate; replicate < pass.end_replicate; ++replicate)
+        for (uint32_t index = pass.begin; index < pass.end; ++index)
+          pixel.add(replicate, index, sample(x, y, replicate, index));
     }
 }
 

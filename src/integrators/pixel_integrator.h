@@ -4,27 +4,15 @@
 
 #include "core/bounds.h"
 #include "integrators/integrator.h"
-#include "samplers/sampler.h"
 
 namespace etd {
-
-// What an integrator needs beside its own parameters.
-struct IntegratorContext {
-  SamplerKind sampler = SamplerKind::kSobol;
-  uint64_t seed = 0;
-  int width = 0;  // of the full image: names the streams
-  PixelBounds crop;
-  int tile_size = 16;
-  uint32_t replicates = 2;
-};
 
 class PixelIntegrator : public Integrator {
  public:
   explicit PixelIntegrator(const IntegratorContext& context) : context_(context) {}
 
-  IntegratorTraits traits() const override { return {}; }
-  size_t work_items(const Pass& pass) const override;
-  void render(const Pass& pass, size_t item, Film& film, ItemCounts& counts) const override;
+  size_t work_items(const Pass& pass, uint32_t phase) const override;
+  void render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) override;
 
   // One sample of one pixel (full-image coordinates), of index `index` in replicate `replicate`: any sample of an image
   // can be drawn alone.

@@ -86,8 +86,7 @@ struct DiffuseAreaLight {
 
   // Uniform over the area in the light's own space, and as the cosine around the normal in the world, on either side
   // with the same probability if both emit. `at`: where that space is, null when it is the world.
-  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere&,
-                                          const Placement* at) const {
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const Placement* at) const {
     EmissionSample s;
     s.on_light = surface.sample(u_position, s.pdf_position);
     if (at) {

@@ -27,18 +27,15 @@ template <class T>
 constexpr bool kSameFromEverywhere = std::is_same_v<T, ConstantInfiniteLight> ||
                                      std::is_same_v<T, ImageInfiniteLight> || std::is_same_v<T, DistantLight>;
 
-// Density per area of points on the disk through which they enter the scene.
-float pdf_disk_of(const BoundingSphere& scene) { return pdf_disk() / sqr(scene.radius); }
-
-// The ray that brings the sample's light through a point of the disk that faces it, before the scene and as wide.
-EmissionSample through_disk(const LightSample& s, Vec2 u, const BoundingSphere& scene) {
-  const Frame frame = Frame::from_z(-s.wi);
-  const Vec2 at = sample_disk_concentric(u);
+// The ray that brings the sample's light through a point of a disk that faces it.
+EmissionSample through_disk(const LightSample& s, Vec2 u, const EmissionDisks& disks) {
+  const EmissionDisks::Entry entry = disks.sample(u, -s.wi);
   EmissionSample e;
-  e.ray = {scene.center + frame.to_world({at.x, at.y, -1.0f}) * scene.radius, frame.z};
+  e.ray = {entry.start, -s.wi};
   e.radiance = s.radiance;
-  e.pdf_position = pdf_disk_of(scene);
+  e.pdf_position = entry.pdf;
   e.pdf_direction = s.pdf;
+  e.starts_within = entry.starts_within;
   return e;
 }
 
@@ -100,27 +97,28 @@ Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from, 
   });
 }
 
-std::optional<EmissionSample> Light::sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere& scene,
+std::optional<EmissionSample> Light::sample_le(Vec2 u_position, Vec2 u_direction, const EmissionDisks& disks,
                                                float time) const {
   using Result = std::optional<EmissionSample>;
   Result sample = dispatch<Result, Lights>(storage_, [&]([[maybe_unused]] const auto& l) -> Result {
     if constexpr (kSameFromEverywhere<std::decay_t<decltype(l)>>) {
       const auto s = sample_li({}, u_direction, LightSampling::kComplete, time);
-      return s ? Result(through_disk(*s, u_position, scene)) : std::nullopt;
+      return s ? Result(through_disk(*s, u_position, disks)) : std::nullopt;
     } else {
       const auto at = placement(motion_, time);
-      return l.sample_le(u_position, u_direction, scene, at ? &*at : nullptr);
+      return l.sample_le(u_position, u_direction, at ? &*at : nullptr);
     }
   });
   if (sample) sample->ray.time = time;
   return sample;
 }
 
-EmissionDensity Light::pdf_le(const SurfacePoint* on_light, Vec3 w, const BoundingSphere& scene, Point3 seen_from,
+EmissionDensity Light::pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks, Point3 seen_from,
                               float time) const {
   return dispatch<EmissionDensity, Lights>(storage_, [&](const auto& l) -> EmissionDensity {
     if constexpr (kSameFromEverywhere<std::decay_t<decltype(l)>>) {
-      return {pdf_disk_of(scene), l.is_delta() ? 1.0f : pdf_li(seen_from, -w, nullptr, LightSampling::kComplete, time)};
+      return {disks.pdf(seen_from, w),
+              l.is_delta() ? 1.0f : pdf_li(seen_from, -w, nullptr, LightSampling::kComplete, time)};
     } else {
       const auto at = placement(motion_, time);
       return l.pdf_le(on_light, w, seen_from, at ? &*at : nullptr);

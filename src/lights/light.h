@@ -8,10 +8,10 @@
 #include <span>
 
 #include "core/animated_transform.h"
-#include "core/bounds.h"
 #include "core/ray.h"
 #include "core/tagged.h"
 #include "core/transform.h"
+#include "lights/emission_disks.h"
 #include "params/declaration.h"
 #include "shapes/surface_point.h"
 #include "spectrum/spectrum.h"
@@ -30,15 +30,18 @@ struct LightSample {
 // A ray along which light leaves its source: where a path from a light starts (Veach 1997, chapter 10; Pharr, Jakob and
 // Humphreys 2016, section 16.1.2).
 struct EmissionSample {
-  Ray ray;  // unit d; leaves the light's surface, or starts before all of the scene when the light is infinite
-  Spectrum radiance;        // along the ray; of a point its intensity, of a single direction the irradiance across it
-  float pdf_position = 0;   // per area: of the surface or the portal, otherwise across the ray; 1 of a point
+  Ray ray;                 // unit d; leaves the light's surface; of an infinite light it comes from infinitely far away
+  Spectrum radiance;       // along the ray; of a point its intensity, of a single direction the irradiance across it
+  float pdf_position = 0;  // per area: of the surface or the portal, otherwise across the ray; 1 of a point
   float pdf_direction = 0;  // per solid angle; 1 of a single direction
   float cosine = 1;         // between the ray and the normal of the area that pdf_position counts
-  SurfacePoint on_light;    // where the ray leaves; of a portal, where it comes in; unused of other infinite lights
+  // Of an infinite light: whether it has passed a part of the scene before the start of `ray`, which is near what is
+  // seen.
+  bool starts_within = false;
+  SurfacePoint on_light;  // where the ray leaves; of a portal, where it comes in; unused of other infinite lights
 
   // The flux that the sample stands for, W: its mean is the light's power, that of infinite lights through the disk
-  // across the ray that hides the scene's bounding sphere.
+  // across the ray that hides the whole scene.
   Spectrum weight() const { return radiance * (cosine / (pdf_position * pdf_direction)); }
 };
 
@@ -73,14 +76,14 @@ class Light {
   // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w from the
   // point `seen_from`, on which that of a light behind a portal depends. 0 for delta lights.
   Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}, float time = 0) const;
-  // A ray of the light, which the two pairs of numbers choose; `scene` is used by infinite lights alone. Nothing when
+  // A ray of the light, which the two pairs of numbers choose; `disks` is used by infinite lights alone. Nothing when
   // nothing is emitted along it: that is an estimate of 0.
-  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere& scene,
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const EmissionDisks& disks,
                                           float time = 0) const;
   // The densities with which sample_le makes a ray along which the light emits: from on_light along w or, where that is
   // null, one of an infinite light that passes the point `seen_from` of the scene. What is 1 in samples of points and
   // single directions is 1 here.
-  EmissionDensity pdf_le(const SurfacePoint* on_light, Vec3 w, const BoundingSphere& scene, Point3 seen_from = {},
+  EmissionDensity pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks, Point3 seen_from = {},
                          float time = 0) const;
   // Emitted power of finite lights, W (per lane), its mean over time where they grow, or what comes in through a
   // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,

@@ -36,7 +36,7 @@ struct PointLight {
   float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
   Spectrum emitted(const SurfacePoint*, Vec3) const { return Spectrum(); }
   // `at`: where the light's own space is, null when it is the world.
-  std::optional<EmissionSample> sample_le(Vec2, Vec2 u_direction, const BoundingSphere&, const Placement* at) const {
+  std::optional<EmissionSample> sample_le(Vec2, Vec2 u_direction, const Placement* at) const {
     const std::optional<Vec3> own = emission.sample(u_direction);
     if (!own) return {};
     EmissionSample s;

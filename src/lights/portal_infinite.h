@@ -31,17 +31,15 @@ struct PortalInfiniteLight {
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint*, LightSampling) const { return map->pdf(p, wi); }
   Spectrum emitted(const SurfacePoint*, Vec3 w, Point3 seen_from) const { return map->value(seen_from, -w) * scale; }
   // Uniform over the portal, and in directions in proportion to the mean of R, G and B. A portal does not move.
-  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const BoundingSphere& scene,
-                                          const Placement*) const {
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const Placement*) const {
     const std::optional<Vec3> from = map->sample(u_direction);
     if (!from) return {};
     const Portal& portal = map->portal();
     const Point3 p =
         portal.corner + portal.frame.to_world({u_position.x * portal.width, u_position.y * portal.height, 0.0f});
-    // Back to where the scene starts, if that is before the portal.
-    const float back = std::max(0.0f, scene.radius - dot(p - scene.center, *from));
     EmissionSample s;
-    s.ray = {p + *from * back, -*from};
+    s.ray = {p, -*from};
+    s.starts_within = true;
     s.on_light.p = p;
     s.on_light.ng = s.on_light.ns = -portal.frame.z;
     s.radiance = map->value(*from) * scale;

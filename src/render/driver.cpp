@@ -17,20 +17,21 @@ constexpr double kWorthCuttingShort = 0.1;  // of the time limit: less is given 
 
 using Clock = std::chrono::steady_clock;
 
-// Integers, so that the order in which threads add them does not matter.
-struct SharedCounts {
-  std::atomic<uint64_t> camera{0}, indirect{0}, shadow{0}, items{0};
-  std::mutex mutex;
-  InvalidSamples invalid;
+// What all items have counted so far. Their sums do not depend on the order in which threads add them.
+class SharedCounts {
+ public:
   void add(const ItemCounts& counts) {
-    camera += counts.rays.camera, indirect += counts.rays.indirect, shadow += counts.rays.shadow;
-    if (counts.invalid.total() > 0) {
-      const std::lock_guard lock(mutex);
-      invalid += counts.invalid;
-    }
-    ++items;
+    const std::lock_guard lock(mutex_);
+    sum_ += counts;
   }
-  RayCounts rays() const { return {camera, indirect, shadow}; }
+  ItemCounts sum() const {
+    const std::lock_guard lock(mutex_);
+    return sum_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  ItemCounts sum_;
 };
 
 double share_without_samples(const Film& film) {
@@ -46,6 +47,7 @@ class RenderLoop {
   RenderLoop(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
              const std::atomic<bool>* stop)
       : integrator_(integrator),
+        traits_(integrator.traits()),
         film_(film),
         settings_(settings),
         replicates_(film.settings().replicates),
@@ -60,8 +62,13 @@ class RenderLoop {
   void run_passes();
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   bool stop_requested() const { return stop_ && stop_->load(std::memory_order_relaxed); }
-  bool over(const Pass& pass) const { return stop_requested() || (pass.index > 0 && seconds() >= settings_.seconds); }
+  bool over(const Pass& pass) const {
+    return traits_.may_be_cut && (stop_requested() || (pass.index > 0 && seconds() >= settings_.seconds));
+  }
   bool render_pass(const Pass& pass);
+  bool render_replicates(const Pass& pass);
+  bool render_phase(const Pass& pass, uint32_t phase, double share_before, double share_after);
+  void fold_splats(const Pass& pass, const ItemCounts& before);
   void show_film() {
     if (observer_.wants_film()) observer_.on_film(film_);
   }
@@ -71,6 +78,7 @@ class RenderLoop {
   RenderProgress progress(const Pass& pass, double share_of_pass) const;
 
   Integrator& integrator_;
+  const IntegratorTraits traits_;
   Film& film_;
   const DriverSettings& settings_;
   const uint32_t replicates_, samples_;
@@ -79,6 +87,7 @@ class RenderLoop {
   Workers workers_;
   const Clock::time_point start_ = Clock::now();
   SharedCounts counts_;
+  bool any_items_ = false;         // of the running pass have been rendered
   double seconds_per_sample_ = 0;  // of a replicate, in the last complete pass
   RenderResult result_;
 };
@@ -95,8 +104,9 @@ RenderResult RenderLoop::run() {
     }
   }
   if (result_.spp == 0) result_.empty = share_without_samples(film_);
-  result_.rays = counts_.rays();
-  result_.invalid = counts_.invalid;
+  const ItemCounts counts = counts_.sum();
+  result_.rays = counts.rays;
+  result_.invalid = counts.invalid;
   result_.seconds = seconds();
   return result_;
 }
@@ -104,10 +114,11 @@ RenderResult RenderLoop::run() {
 void RenderLoop::run_passes() {
   for (Pass pass = first_pass(samples_); pass.begin < samples_; pass = next_pass(pass, samples_)) {
     const double begun = seconds();
+    pass.end_replicate = replicates_;
     const bool complete = render_pass(pass);
     result_.error = estimated_error(film_, workers_);
     if (!complete) {
-      result_.unequal = counts_.items > 0;
+      result_.unequal = any_items_;
       result_.stopped_by = stop_requested() ? StoppedBy::kInterrupt : StoppedBy::kTime;
       break;
     }
@@ -125,25 +136,61 @@ void RenderLoop::run_passes() {
   }
 }
 
-// False when items were left out.
+// False when items were left out, here and below.
 bool RenderLoop::render_pass(const Pass& pass) {
-  integrator_.prepare(pass);
-  const size_t items = integrator_.work_items(pass);
-  counts_.items = 0;
-  std::atomic<size_t> next{0};
+  any_items_ = false;
+  if (!traits_.splats) return render_replicates(pass);
+  // There is one buffer for splats, which belongs to one replicate at a time.
+  for (Pass one = pass; one.first_replicate < pass.end_replicate; ++one.first_replicate) {
+    one.end_replicate = one.first_replicate + 1;
+    const ItemCounts before = counts_.sum();
+    const bool complete = render_replicates(one);
+    fold_splats(one, before);
+    if (!complete) return false;
+  }
+  return true;
+}
+
+bool RenderLoop::render_replicates(const Pass& pass) {
+  const uint32_t phases = integrator_.phases(pass);
+  const double parts = static_cast<double>(phases) * replicates_;
+  const double part = static_cast<double>(phases) * (pass.end_replicate - pass.first_replicate) / parts;
+  const double before = static_cast<double>(pass.first_replicate) / replicates_;
+  for (uint32_t phase = 0; phase < phases; ++phase) {
+    const double from = before + part * phase / phases;
+    if (!render_phase(pass, phase, from, from + part / phases)) return false;
+  }
+  return true;
+}
+
+// `from` and `to`: the shares of the pass that are done before and after.
+bool RenderLoop::render_phase(const Pass& pass, uint32_t phase, double from, double to) {
+  integrator_.begin(pass, phase);
+  const size_t items = integrator_.work_items(pass, phase);
+  std::atomic<size_t> next{0}, done{0};
   while (true) {
     run_items(workers_, next, items, [&](size_t item) {
-      ItemCounts counts;
-      integrator_.render(pass, item, film_, counts);
-      counts_.add(counts);
-      observer_.on_progress(progress(pass, static_cast<double>(counts_.items) / static_cast<double>(items)));
+      Sink sink(film_);
+      integrator_.render(pass, phase, item, sink);
+      counts_.add(sink.counts());
+      const double share = static_cast<double>(++done) / static_cast<double>(items);
+      observer_.on_progress(progress(pass, from + (to - from) * share));
       return !over(pass) && !observer_.wants_film();
     });
+    any_items_ = any_items_ || done > 0;
     if (next >= items || over(pass)) break;
     show_film();
   }
-  integrator_.end(pass);
-  return counts_.items == items;
+  return done == items;
+}
+
+void RenderLoop::fold_splats(const Pass& pass, const ItemCounts& before) {
+  const ItemCounts now = counts_.sum();
+  const PixelBounds& crop = film_.settings().crop;
+  for_each_item(workers_, static_cast<size_t>(crop.height()), [&](size_t row) {
+    film_.fold_splats(crop.y0 + static_cast<int>(row), pass.first_replicate, now.light_paths - before.light_paths,
+                      now.rays.total() - before.rays.total());
+  });
 }
 
 std::optional<StoppedBy> RenderLoop::reason_to_stop(const Pass& done) {
@@ -175,7 +222,7 @@ double RenderLoop::expected_spp() const {
 
 RenderProgress RenderLoop::progress(const Pass& pass, double share_of_pass) const {
   RenderProgress now{
-      .spp = settings_.spp, .rays = counts_.rays().total(), .seconds = seconds(), .error = result_.error};
+      .spp = settings_.spp, .rays = counts_.sum().rays.total(), .seconds = seconds(), .error = result_.error};
   now.spp_done = (pass.begin + (pass.end - pass.begin) * share_of_pass) * replicates_;
   now.share = std::max(now.spp_done / std::min<double>(settings_.spp, expected_spp()), now.seconds / settings_.seconds);
   constexpr double kAlmostAll = 0.999;
@@ -184,7 +231,7 @@ RenderProgress RenderLoop::progress(const Pass& pass, double share_of_pass) cons
 }
 
 Pass cut_pass(uint32_t index, uint32_t begin, uint32_t length, uint32_t samples) {
-  return {index, begin, begin + std::min(length, samples - std::min(begin, samples))};
+  return {.index = index, .begin = begin, .end = begin + std::min(length, samples - std::min(begin, samples))};
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace etd {
 
 namespace {
 
-// What converges to the picture of the path integrator, as far as it can render a scene at all. "ambientocclusion" and
-// "function" compute something else and are not here.
+// What converges to the picture of the path integrator, as far as it can render a scene at all, and "lightpath", which
+// is our "light". "ambientocclusion" and "function" compute something else and are not here.
 constexpr std::array<std::string_view, 8> kIntegrators = {"volpath", "simplepath", "simplevolpath", "bdpt",
                                                           "mlt",     "sppm",       "lightpath",     "randomwalk"};
 constexpr std::array<std::string_view, 5> kSamplers = {"paddedsobol", "zsobol", "halton", "pmj02bn", "stratified"};
@@ -25,10 +25,15 @@ std::span<const std::string_view> other_names(Family family) {
   return {};
 }
 
+std::string_view our_name(Family family, std::string_view other) {
+  if (family == Family::kSampler) return "sobol";
+  return other == "lightpath" ? "light" : "path";
+}
+
 void take_other_name(Family family, ModelUse& use, Diagnostics& diagnostics) {
   const std::span<const std::string_view> names = other_names(family);
   if (std::find(names.begin(), names.end(), use.model) == names.end()) return;
-  const std::string_view ours = family == Family::kIntegrator ? "path" : "sobol";
+  const std::string_view ours = our_name(family, use.model);
   const ModelDecl& decl = *find_any_model(family, ours);
   std::string dropped;
   const auto drop = [&](const Param& param) {

@@ -8,8 +8,10 @@
 
 namespace etd {
 
-// Of samplers rendered with "sobol", of integrators rendered with "path"; of other families none.
+// The names of samplers and integrators; of other families there are none.
 std::span<const std::string_view> other_names(Family family);
+// The name that ours has, for one of other_names().
+std::string_view our_name(Family family, std::string_view other);
 
 // Makes a use of such a name one of ours that keeps what ours takes, with a note that says what is used and what is
 // left out. Other uses stay as they are.

@@ -61,6 +61,20 @@ std::optional<Param> parse_param(const ParamDecl& decl, std::string_view text, S
   }
 }
 
+// The integrators that declare the parameter, separated by commas.
+std::string integrators_with(std::string_view param) {
+  std::string names;
+  for (const ModelDecl* model : all_models(Family::kIntegrator))
+    if (model->find(param)) names += (names.empty() ? "" : ", ") + model->name;
+  return names;
+}
+
+std::vector<std::string_view> names_of(const ModelDecl& model) {
+  std::vector<std::string_view> names;
+  for (const ParamDecl& p : model.params) names.push_back(p.name);
+  return names;
+}
+
 void apply_one(const std::string& key, const std::string& text, const OverridableModels& models,
                Diagnostics& diagnostics) {
   const std::string shown = fmt::format("{}={}", key, text);
@@ -68,7 +82,8 @@ void apply_one(const std::string& key, const std::string& text, const Overridabl
   const size_t dot = key.find('.');
   const std::string family_text = key.substr(0, dot);
   const bool is_film = family_text == "film", is_sampler = family_text == "sampler";
-  if (dot == std::string::npos || !(is_film || is_sampler || family_text == "integrator"))
+  const bool is_integrator = family_text == "integrator";
+  if (dot == std::string::npos || !(is_film || is_sampler || is_integrator))
     return diagnostics.error(loc, fmt::format("\"{}\" names no setting", key),
                              "settings are film.NAME, sampler.NAME and integrator.NAME, as in integrator.maxdepth=8; "
                              "`etendue describe integrator` lists them");
@@ -81,7 +96,13 @@ void apply_one(const std::string& key, const std::string& text, const Overridabl
   unknown.name = key.substr(dot + 1);
   unknown.loc = loc;
   const ParamDecl* declared = model->find(unknown.name);
-  if (!declared) return check_params(*model, ModelUse{use.model, {unknown}, use.loc}, diagnostics);
+  if (!declared) {
+    const std::string others = is_integrator ? integrators_with(unknown.name) : std::string();
+    if (others.empty()) return check_params(*model, ModelUse{use.model, {unknown}, use.loc}, diagnostics);
+    return diagnostics.error(
+        loc, fmt::format("integrator \"{}\" has no parameter \"{}\"", use.model, unknown.name),
+        fmt::format("those that have it: {}; \"{}\" has {}", others, use.model, fmt::join(names_of(*model), ", ")));
+  }
 
   loc.column = static_cast<int32_t>(key.size()) + 2;
   loc.length = std::max(1, static_cast<int32_t>(text.size()));
@@ -109,6 +130,7 @@ std::vector<std::string> sample_options(const RenderOverrides& o) {
   if (o.replicates) add("--replicates", std::to_string(*o.replicates));
   if (o.seed) add("--seed", std::to_string(*o.seed));
   if (o.sampler) add("--sampler", *o.sampler);
+  if (o.integrator) add("--integrator", *o.integrator);
   for (const auto& [key, text] : o.set) add("--set", fmt::format("{}={}", key, text));
   return options;
 }

@@ -29,6 +29,8 @@ const char* end_text(PathEnd end) {
       return "the surface scattered it nowhere";
     case PathEnd::kRoulette:
       return "Russian roulette";
+    case PathEnd::kLeftOut:
+      return "what it would have found is not to be rendered";
   }
   return "";
 }

@@ -43,6 +43,8 @@ FilmSettings film_settings(const RenderSettings& s) {
           .positions = s.positions,
           .alpha = s.alpha,
           .ids = s.ids,
+          .splats = s.traits.splats,
+          .correlated = s.traits.correlated_pixels,
           .feature_space = s.feature_space,
           .sensor = s.sensor};
 }
@@ -78,6 +80,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
                                   .width = settings.width,
+                                  .height = settings.height,
                                   .crop = settings.crop,
                                   .tile_size = settings.tile_size,
                                   .replicates = settings.replicates};
@@ -107,9 +110,8 @@ RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& fin
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, bias_of(prepared), finished.result);
   if (!prepared.camera_file.empty())
     image.metadata.emplace_back("etendue:camera", prepared.camera_file.filename().string());
-  const IntegratorTraits traits = prepared.integrator->traits();
-  const bool independent = traits.memoryless && !traits.splats;
-  image.metadata.emplace_back("etendue:pixels", std::string(independent ? "independent" : "correlated"));
+  const bool correlated = prepared.settings.traits.correlated_pixels;
+  image.metadata.emplace_back("etendue:pixels", std::string(correlated ? "correlated" : "independent"));
   if (prepared.settings.ids) add_manifests(prepared.labels, finished.film, image.metadata);
   add_provenance(prepared, finished, image.metadata);
   return image;

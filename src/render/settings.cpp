@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "film/film_model.h"
+#include "integrators/make_integrator.h"
 #include "render/driver.h"
 #include "render/other_names.h"
 #include "render/overrides.h"
@@ -95,6 +96,50 @@ void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, R
                         kFirstErrorTest, settings.spp));
 }
 
+SourceLoc command_line(const std::string& text, Diagnostics& diagnostics) {
+  const auto length = static_cast<int32_t>(text.size());
+  return {diagnostics.sources().add("command line", text), 1, 1, std::max(1, length)};
+}
+
+// Puts another integrator in place of the scene's. It keeps those parameters of the scene's that it has.
+void replace_integrator(ModelUse& use, const std::string& name, Diagnostics& diagnostics) {
+  const ModelUse of_scene = use;
+  use = {name, {}, command_line(name, diagnostics)};
+  take_other_name(Family::kIntegrator, use, diagnostics);
+  const ModelDecl* decl = find_any_model(Family::kIntegrator, use.model);
+  if (!decl) return;  // reported by require_model()
+  std::string dropped;
+  for (const Param& p : of_scene.params)
+    if (decl->find(p.name))
+      use.params.push_back(p);
+    else
+      dropped += (dropped.empty() ? "" : ", ") + p.name;
+  if (!dropped.empty())
+    diagnostics.note(of_scene.loc, fmt::format("integrator \"{}\" has none of these parameters, which the scene "
+                                               "sets for \"{}\": {}",
+                                               use.model, of_scene.model, dropped));
+}
+
+// What the integrator can and cannot give.
+void apply_traits(const RenderOverrides& overrides, RenderSettings& settings, Diagnostics& diagnostics) {
+  const std::string& name = settings.integrator.model;
+  const IntegratorTraits& traits = settings.traits = integrator_traits(name);
+  settings.replicates = overrides.replicates.value_or(traits.correlated_pixels ? kCorrelatedReplicates : 2);
+  if (traits.correlated_pixels && settings.replicates < kReplicatesForSpread) {
+    diagnostics.error({}, fmt::format("integrator \"{}\" needs at least {} replicates: no sample of it belongs to one "
+                                      "pixel alone, so only their spread tells the error",
+                                      name, kReplicatesForSpread));
+    settings.replicates = kReplicatesForSpread;
+  }
+  settings.features = overrides.features.value_or(true) && traits.features;
+  settings.alpha = overrides.alpha.value_or(false);
+  settings.ids = overrides.ids.value_or(false);
+  if (!traits.features && (settings.alpha || settings.ids))
+    diagnostics.error(
+        {}, fmt::format("integrator \"{}\" does not look at the scene from the camera, so there {} for it", name,
+                        settings.alpha ? "is no alpha" : "are no layers of ids"));
+}
+
 }  // namespace
 
 RenderSettings make_settings(const SceneDescription& description, const RenderOverrides& wanted,
@@ -107,18 +152,15 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
   fill_empty(sampler, "sobol");
   fill_empty(settings.integrator, "path");
 
-  settings.replicates = overrides.replicates.value_or(settings.replicates);
-  settings.features = overrides.features.value_or(settings.features);
-  settings.alpha = overrides.alpha.value_or(settings.alpha);
-  settings.ids = overrides.ids.value_or(settings.ids);
   settings.threads = overrides.threads.value_or(settings.threads);
   settings.tile_size = overrides.tile_size.value_or(settings.tile_size);
   if (overrides.sampler) {
     sampler.model = *overrides.sampler;
-    const auto length = static_cast<int32_t>(sampler.model.size());
-    sampler.loc = {diagnostics.sources().add("command line", sampler.model), 1, 1, std::max(1, length)};
+    sampler.loc = command_line(sampler.model, diagnostics);
     take_other_name(Family::kSampler, sampler, diagnostics);
   }
+  if (overrides.integrator) replace_integrator(settings.integrator, *overrides.integrator, diagnostics);
+  apply_traits(overrides, settings, diagnostics);
   apply_overrides(overrides.set, {film, sampler, settings.integrator}, diagnostics);
 
   const ModelDecl* film_decl = require_model(Family::kFilm, film, diagnostics);

@@ -9,6 +9,7 @@
 
 #include "core/bounds.h"
 #include "film/sensor.h"
+#include "integrators/integrator.h"
 #include "params/diagnostics.h"
 #include "samplers/sampler.h"
 #include "scene/description.h"
@@ -27,6 +28,7 @@ struct RenderSettings {
   uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
   ModelUse integrator;  // with the overrides applied
+  IntegratorTraits traits;
   bool features = true;
   bool alpha = false;  // and what the picture shows without what is behind everything
   bool ids = false;    // of objects and materials
@@ -52,7 +54,7 @@ struct RenderOverrides {
   std::optional<bool> features, alpha, ids;
   std::optional<size_t> texture_memory;
   std::optional<std::filesystem::path> texture_cache;
-  std::optional<std::string> sampler;
+  std::optional<std::string> sampler, integrator;
   // "integrator.mode" = "naive" and the like: a declared parameter of the film, sampler or integrator model.
   std::vector<std::pair<std::string, std::string>> set;
 };

@@ -13,6 +13,7 @@
 #include "scene/compile_lights.h"
 #include "scene/nesting.h"
 #include "scene/registry.h"
+#include "scene/seen.h"
 #include "scene/visibility.h"
 
 namespace etd {
@@ -193,6 +194,15 @@ void load_images(const CompileOptions& options, TextureBuilder& textures, SceneF
   files.images->cache_limit = table.cache_limit;
 }
 
+// Around the box of the scene, with room for rounding.
+BoundingSphere bounding_sphere(const Scene& scene) {
+  const Bounds3& box = scene.summary.bounds;
+  if (box.empty()) return {{}, 1.0f};
+  constexpr double kRoom = 1.0 + 1e-5;
+  const double radius = 0.5 * length(box.diagonal()) * kRoom;
+  return {to_float(box.center() - scene.origin), std::max(static_cast<float>(radius), 1e-30f)};
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
@@ -226,6 +236,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   scene->light_data.kept = nullptr;
   scene->light_sampler = LightSampler(scene->lights, LightChoice::kPower, to_float(view.position - scene->origin));
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
+  scene->emission_disks = EmissionDisks(bounding_sphere(*scene), seen_by_camera(*scene, options.width, options.height));
   check_precision(*scene, options.width, options.height, diagnostics);
   return scene;
 }

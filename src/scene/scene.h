@@ -107,7 +107,8 @@ class Scene {
   CameraData camera_data;
   Filter filter;
   std::unique_ptr<Accelerator> accelerator;
-  Vec3d origin;  // world position that was moved to (0, 0, 0)
+  EmissionDisks emission_disks;  // where rays of infinite lights enter
+  Vec3d origin;                  // world position that was moved to (0, 0, 0)
   SceneSummary summary;
   SceneNames names;
 

@@ -49,8 +49,9 @@ void check_samples(const LightModel& m, uint64_t seed, Worst& finite, Worst& sou
       for (int lane = 0; lane < 3; ++lane) sound.add_relative(emitted[lane], s->radiance[lane], where);
     }
     if (m.infinite) {
-      // Before the bounding sphere, in none of which light may be missing.
-      sound.add(std::max(0.0f, dot(s->ray.o - kTestScene.center, s->ray.d) + kTestScene.radius), where);
+      // Before the bounding sphere, in none of which light may be missing, unless it says that it is not.
+      if (!s->starts_within)
+        sound.add(std::max(0.0f, dot(s->ray.o - kTestScene.center, s->ray.d) + kTestScene.radius), where);
     } else {
       sound.add(length(s->ray.o - s->on_light.p), where);
       if (m.on_surface) sound.add(std::abs(std::abs(dot(s->on_light.ng, s->ray.d)) - s->cosine), where);

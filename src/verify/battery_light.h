@@ -14,6 +14,8 @@ namespace etd {
 
 // Where rays of infinite lights start in the battery: a scene's bounding sphere, around the unit ball.
 inline constexpr BoundingSphere kTestScene{{0.1f, -0.2f, 0.3f}, 1.5f};
+// With two smaller disks inside, which are not in its middle.
+inline EmissionDisks test_disks() { return EmissionDisks(kTestScene, {{0.5f, 0.1f, 0.2f}, 0.15f}); }
 
 // A light with its type erased at one time, and the surface on which rays can find it (none when infinite).
 struct LightModel {

@@ -58,6 +58,7 @@ Estimate make_estimate(const Film& film) {
   Estimate e;
   e.width = s.crop.width(), e.height = s.crop.height();
   e.replicates.resize(s.replicates);
+  e.correlated = s.correlated;
   e.samples = std::numeric_limits<double>::infinity();
   for (int y = s.crop.y0; y < s.crop.y1; ++y)
     for (int x = s.crop.x0; x < s.crop.x1; ++x) {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
+#include "integrators/make_integrator.h"
+#include "render/registry.h"
 #include "render/session.h"
 #include "scene/scene.h"
 #include "verify/film_mean.h"
@@ -18,57 +21,42 @@ constexpr int kLargestSide = 64;
 // Fewer samples than this that carry a region's light are not normally distributed in the mean.
 constexpr double kEffectiveSamples = 50;
 constexpr size_t kChannels = 3;
-// Without roulette, longer paths cost too much.
-constexpr int kLongestWithoutRoulette = 64;
-
-struct Estimator {
-  std::string name;
-  std::vector<std::pair<std::string, std::string>> set = {};
-  std::string sampler = "sobol";
-  bool samples_lights_alone = false;  // single samples may be as bright as SamplePeaks::light
-  std::string not_applicable = {};    // why, if so
+// One of the two renders of an estimator: what fails is rendered again, with other seeds and more samples.
+struct Run {
+  uint64_t number = 0;  // of the estimator
+  bool again = false;
+  uint32_t more() const { return again ? 4 : 1; }
 };
 
-std::vector<Estimator> estimators_for(const Scene& scene, int max_depth) {
-  const bool delta = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.is_delta(); });
-  const auto set = [](const char* name, const char* value) {
-    return std::vector<std::pair<std::string, std::string>>{{std::string("integrator.") + name, value}};
-  };
-  std::vector<Estimator> all{{"mis", {}},
-                             {"naive", set("mode", "naive")},
-                             {"next_event", set("mode", "next_event")},
-                             {"independent", {}, "independent"},
-                             {"balance heuristic", set("misheuristic", "balance")},
-                             {"lights all alike", set("lightsampler", "uniform")},
-                             {"roulette from 1", set("roulettedepth", "1")},
-                             {"no roulette", set("roulettedepth", "1048576")}};
-  all[2].samples_lights_alone = true;
-  if (delta) all[1].not_applicable = "no ray meets lights without extent";
-  if (scene.lights.size() < 2) all[5].not_applicable = "there is one light at most";
-  if (max_depth < 2) all[6].not_applicable = all[7].not_applicable = "paths have one event at most";
-  if (max_depth > kLongestWithoutRoulette)
-    all[7].not_applicable =
-        fmt::format("paths may have {} events; --max-depth {} would make it apply", max_depth, kLongestWithoutRoulette);
-  return all;
+// Parameters that the first integrator has and others do not have are for the first alone; those that it does not have
+// either are wrong.
+bool applies(const std::string& key, const Variant& e) {
+  constexpr std::string_view kFamily = "integrator.";
+  const ModelDecl* model = find_any_model(Family::kIntegrator, e.integrator);
+  const ModelDecl* first = all_models(Family::kIntegrator).front();
+  if (!key.starts_with(kFamily) || !model) return true;
+  const std::string name = key.substr(kFamily.size());
+  return model->find(name) || !first->find(name);
 }
 
-RenderOverrides overrides_for(const Estimator& e, const SceneVerifyOptions& options, std::pair<int, int> size,
-                              uint64_t run, size_t estimators) {
+RenderOverrides overrides_for(const Variant& e, const SceneVerifyOptions& options, std::pair<int, int> size,
+                              const Run& run, size_t estimators) {
   RenderOverrides o;
   o.size = size;
-  const uint32_t more = run >= 1000 ? 4 : 1;
   if (options.seconds)
-    o.seconds = *options.seconds * more / static_cast<double>(estimators);
+    o.seconds = *options.seconds * run.more() / static_cast<double>(estimators);
   else
-    o.spp = options.spp * more;
+    o.spp = options.spp * run.more();
   o.replicates = kReplicates;
-  o.seed = hash_combine(options.seed, run);
+  o.seed = hash_combine(options.seed, run.number, run.again ? 1 : 0);
   o.threads = options.threads;
   o.tile_size = 8;
   o.features = false;
   o.sampler = e.sampler;
-  o.set = options.set;
-  o.set.insert(o.set.end(), e.set.begin(), e.set.end());
+  o.integrator = e.integrator;
+  for (const auto& [key, value] : options.set)
+    if (applies(key, e)) o.set.emplace_back(key, value);
+  for (const auto& [name, value] : e.set) o.set.emplace_back("integrator." + name, value);
   return o;
 }
 
@@ -96,6 +84,14 @@ struct Weighing {
   std::vector<HistogramTest> histograms;
 };
 
+// How many samples carry the light of a region. Of splats no second moments are known, but the spread of the replicates
+// tells as much: N samples whose squares outweigh their mean have a mean with the variance E[x^2] / N.
+double carrying_samples(const Film& film, const PixelBounds& region) {
+  if (!film.settings().correlated) return effective_samples(film, region);
+  const RunningStats mean = region_mean(film, region, {});
+  return mean.variance_of_mean() > 0.0 ? sqr(mean.mean()) / mean.variance_of_mean() : HUGE_VAL;
+}
+
 double samples_in(const Film& film, const PixelBounds& r) {
   double n = 0;
   for (int y = r.y0; y < r.y1; ++y)
@@ -112,10 +108,13 @@ Weighing weigh(const Film& reference, const Film& other, double peak_reference, 
   for (RegionTest& t : tests) {
     t.region = {t.region.x0 + crop.x0, t.region.y0 + crop.y0, t.region.x1 + crop.x0, t.region.y1 + crop.y0};
     const bool both_dark = t.a == 0.0 && t.b == 0.0;
-    const bool usable = both_dark || std::min(effective_samples(reference, t.region),
-                                              effective_samples(other, t.region)) >= kEffectiveSamples;
-    const double chance = t.b < t.a ? chance_of_low_mean(t.b, t.a, samples_in(other, t.region), peak_other)
-                                    : chance_of_low_mean(t.a, t.b, samples_in(reference, t.region), peak_reference);
+    const bool usable = both_dark || std::min(carrying_samples(reference, t.region),
+                                              carrying_samples(other, t.region)) >= kEffectiveSamples;
+    const auto chance_of = [&](const Film& film, double low, double high, double peak) {
+      return film.settings().correlated ? 0.0 : chance_of_low_mean(low, high, samples_in(film, t.region), peak);
+    };
+    const double chance =
+        t.b < t.a ? chance_of(other, t.b, t.a, peak_other) : chance_of(reference, t.a, t.b, peak_reference);
     const double p = std::max(t.corrected, std::min(1.0, chance * static_cast<double>(tests.size())));
     all.regions.push_back({t, usable, p});
   }
@@ -171,18 +170,17 @@ class SceneVerifier {
     if (!compile_scene()) return {};
     SceneVerification v;
     v.width = size_.first, v.height = size_.second;
-    const Estimator& usual = estimators_[0];
-    const auto reference = render(usual, 0, "mis");
-    if (!reference) return {};
+    const FinishedRender* usual = reference_for(estimators_[0], false);
+    if (!usual) return {};
     for (size_t i = 0; i < estimators_.size() && !stop_; ++i) {
       EstimatorReport report;
       report.name = estimators_[i].name;
       if (i == 0) {
         report.verdict = Agreement::kReference;
-        describe(*reference, *reference, report);
+        describe(*usual, *usual, report);
       } else if (!estimators_[i].not_applicable.empty()) {
         report.reason = estimators_[i].not_applicable;
-      } else if (!compare(i, *reference, report)) {
+      } else if (!compare(i, report)) {
         return {};
       }
       if (!stop_) v.estimators.push_back(std::move(report));
@@ -193,7 +191,8 @@ class SceneVerifier {
 
  private:
   bool compile_scene() {
-    RenderOverrides o = overrides_for({"mis", {}}, options_, options_.size.value_or(std::pair{0, 0}), 0, 1);
+    const Variant as_in_scene{.name = "", .integrator = std::string(all_models(Family::kIntegrator).front()->name)};
+    RenderOverrides o = overrides_for(as_in_scene, options_, options_.size.value_or(std::pair{0, 0}), {}, 1);
     if (!options_.size) o.size.reset();
     RenderSettings s = make_settings(description_, o, diagnostics_);
     size_ = {s.width, s.height};
@@ -204,22 +203,33 @@ class SceneVerifier {
     if (!prepared) return false;
     scene_ = prepared->scene;
     const Param* depth = prepared->settings.integrator.find("maxdepth");
-    estimators_ = estimators_for(*scene_, depth && depth->integers.size() == 1 ? depth->integers[0] : 5);
+    estimators_ = integrator_variants(*scene_, depth && depth->integers.size() == 1 ? depth->integers[0] : 5);
     level_ = bonferroni_level(options_.family_level, estimators_.size() - 1);
     peaks_ = find_sample_peaks(*scene_, size_.first, size_.second);
     return true;
   }
 
-  std::optional<FinishedRender> render(const Estimator& e, uint64_t run, const std::string& what) {
+  std::optional<FinishedRender> render(const Variant& e, const Run& run) {
     auto prepared =
         prepare_render(description_, overrides_for(e, options_, size_, run, estimators_.size()), diagnostics_, scene_);
     if (!prepared) return {};
-    const double step = 1.0 / static_cast<double>(estimators_.size()), from = static_cast<double>(run % 1000) * step;
-    ProgressObserver observer(progress_, what, from, from + step);
+    const double step = 1.0 / static_cast<double>(estimators_.size()), from = static_cast<double>(run.number) * step;
+    ProgressObserver observer(progress_, e.name + (run.again ? ", again" : ""), from, from + step);
     return run_render(*prepared, observer, &stop_);
   }
 
-  double peak_of(const Estimator& e) const { return e.samples_lights_alone ? peaks_.light : peaks_.scattering; }
+  // The usual way to estimate the image that `e` estimates. Null when it cannot be rendered, which is reported.
+  const FinishedRender* reference_for(const Variant& e, bool again) {
+    for (const Reference& r : references_)
+      if (r.image_of_path == e.image_of_path && r.again == again) return &r.render;
+    Variant usual = estimators_[0];
+    usual.set.insert(usual.set.end(), e.image_of_path.begin(), e.image_of_path.end());
+    auto rendered = render(usual, {.again = again});
+    if (!rendered) return nullptr;
+    return &references_.emplace_back(Reference{e.image_of_path, again, std::move(*rendered)}).render;
+  }
+
+  double peak_of(const Variant& e) const { return e.samples_lights_alone ? peaks_.light : peaks_.scattering; }
 
   static void describe(const FinishedRender& reference, const FinishedRender& other, EstimatorReport& report) {
     const Quantity green{Quantity::Component::kBeauty, 1};
@@ -233,23 +243,20 @@ class SceneVerifier {
   }
 
   // False when the estimator cannot be rendered, which is reported.
-  bool compare(size_t i, const FinishedRender& reference, EstimatorReport& report) {
-    const Estimator& e = estimators_[i];
-    const auto film = render(e, i, e.name);
-    if (!film) return false;
-    describe(reference, *film, report);
-    judge(weigh(reference.film, film->film, peak_of(estimators_[0]), peak_of(e), level_), report);
-    if (report.verdict != Agreement::kDisagrees || stop_) return true;
-
-    // Once more, with four times the samples and other seeds: chance does not strike twice.
-    if (!second_reference_) second_reference_ = render(estimators_[0], 1000, "mis, again");
-    const auto again = render(e, 1000 + i, e.name + ", again");
-    if (!second_reference_ || !again) return false;
-    describe(*second_reference_, *again, report);
-    const Weighing second = weigh(second_reference_->film, again->film, peak_of(estimators_[0]), peak_of(e), level_);
-    judge(second, report);
-    if (report.verdict == Agreement::kDisagrees)
-      report.map = std::make_shared<const CheckMap>(picture_of(second_reference_->film, again->film, second.regions));
+  bool compare(size_t i, EstimatorReport& report) {
+    const Variant& e = estimators_[i];
+    // Once more where it disagrees, with four times the samples and other seeds: chance does not strike twice.
+    for (const bool again : {false, true}) {
+      const FinishedRender* reference = reference_for(e, again);
+      const auto film = render(e, {i, again});
+      if (!reference || !film) return false;
+      describe(*reference, *film, report);
+      const Weighing weighing = weigh(reference->film, film->film, peak_of(estimators_[0]), peak_of(e), level_);
+      judge(weighing, report);
+      if (report.verdict != Agreement::kDisagrees || stop_) return true;
+      if (again)
+        report.map = std::make_shared<const CheckMap>(picture_of(reference->film, film->film, weighing.regions));
+    }
     return true;
   }
 
@@ -310,10 +317,16 @@ class SceneVerifier {
 
   std::pair<int, int> size_;
   std::shared_ptr<const Scene> scene_;
-  std::vector<Estimator> estimators_;
+  std::vector<Variant> estimators_;
   double level_ = 0;
   SamplePeaks peaks_;
-  std::optional<FinishedRender> second_reference_;
+  // What has been rendered so far to compare with.
+  struct Reference {
+    ParameterTexts image_of_path;
+    bool again;
+    FinishedRender render;
+  };
+  std::deque<Reference> references_;
 };
 
 }  // namespace

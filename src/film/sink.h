@@ -1,0 +1,90 @@
+// All that an integrator sees of the film. It hands over samples, splats and counts; the sink admits or refuses values,
+// exposes and sums them, counts what is invalid, and remembers the strongest. A work item has a sink of its own.
+#pragma once
+
+#include "film/film.h"
+#include "film/invalid_samples.h"
+
+namespace etd {
+
+// What happened in a work item beside what the film holds; sums do not depend on the order of the items.
+struct ItemCounts {
+  RayCounts rays;
+  InvalidSamples invalid;
+  uint64_t light_paths = 0;
+
+  ItemCounts& operator+=(const ItemCounts& b) {
+    rays += b.rays, invalid += b.invalid, light_paths += b.light_paths;
+    return *this;
+  }
+};
+
+class Sink {
+ public:
+  explicit Sink(Film& film) : film_(film) {}
+  Sink(const Sink&) = delete;
+  Sink& operator=(const Sink&) = delete;
+
+  // The samples of one pixel (full-image coordinates inside the crop) in one pass, replicate by replicate. They are
+  // summed here and reach the film when their replicate is done. In a pass, no other item has samples of this pixel.
+  class Pixel {
+   public:
+    Pixel(Sink& sink, int x, int y) : sink_(sink), x_(x), y_(y) {}
+    ~Pixel();
+    Pixel(const Pixel&) = delete;
+    Pixel& operator=(const Pixel&) = delete;
+
+    void add(uint32_t replicate, uint32_t index, PixelSample sample);
+
+   private:
+    void fold();
+
+    Sink& sink_;
+    int x_, y_;
+    uint32_t replicate_ = 0;
+    PixelSums sums_;  // of replicate_
+    StrongestSample strongest_;
+    PixelIds ids_;
+  };
+
+  // Light that a path from a light brings to one pixel after `depth` scattering events, weighted with the pixel's
+  // filter and not divided by the number of paths; what falls beside the crop is left out. Any item may splat to any
+  // pixel. `number` names the path where the light is invalid.
+  void splat(int x, int y, int depth, const Spectrum& light, float filter, uint32_t number);
+  // Paths from lights that were begun, whether or not they reached the camera: what splats are divided by.
+  void count_light_paths(uint64_t count) { counts_.light_paths += count; }
+  // Rays that no sample of a pixel has counted.
+  void count(const RayCounts& rays) { counts_.rays += rays; }
+
+  const ItemCounts& counts() const { return counts_; }
+
+ private:
+  Film& film_;
+  ItemCounts counts_;
+};
+
+inline void Sink::Pixel::add(uint32_t replicate, uint32_t index, PixelSample s) {
+  const FilmSettings& film = sink_.film_.settings();
+  if (replicate != replicate_) {
+    fold();
+    replicate_ = replicate;
+  }
+  const uint32_t number = index * film.replicates + replicate;
+  ids_.offer({s.distance2, number, s.ids});
+  admit({x_, y_, number}, film.sensor, s, sink_.counts_.invalid);
+  strongest_.offer({static_cast<float>(sums_.add(s)), number});
+  sink_.counts_.rays += s.rays;
+}
+
+inline void Sink::Pixel::fold() {
+  if (sums_.count > 0) sink_.film_.add(x_, y_, replicate_, sums_);
+  sums_ = {};
+}
+
+inline Sink::Pixel::~Pixel() {
+  fold();
+  sink_.film_.offer(x_, y_, strongest_);
+  if (sink_.film_.settings().ids) sink_.film_.offer(x_, y_, ids_);
+}
+
+}  // namespace etd

@@ -1,0 +1,24 @@
+// One way of an algorithm to estimate the image of a scene. All ways must agree, which verification tests; each
+// algorithm names its own.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace etd {
+
+using ParameterTexts = std::vector<std::pair<std::string, std::string>>;  // name and value, as after --set integrator.
+
+struct Variant {
+  std::string name;
+  ParameterTexts set = {};
+  std::string sampler = "sobol";
+  std::string integrator = {};        // filled in by integrator_variants()
+  bool samples_lights_alone = false;  // single samples may be as bright as SamplePeaks::light (verify/sample_peaks.h)
+  std::string not_applicable = {};    // why it estimates another image in this scene, if it does
+  ParameterTexts image_of_path =
+      {};  // parameters with which path estimates the same image, if others than its defaults
+};
+
+}  // namespace etd
