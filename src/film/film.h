@@ -20,17 +20,23 @@ inline constexpr uint32_t kReplicatesForSpread = 4;
 struct FilmSettings {
   int width = 0, height = 0;  // of the full image
   PixelBounds crop;           // the pixels kept
-  uint32_t replicates = 2;
-  bool features = true;       // albedo, normal, depth, coverage
-  bool positions = false;     // beside the features, if there are any
-  bool alpha = false;         // and the light of what it covers
-  bool ids = false;           // of objects and materials
-  bool splats = false;        // light comes as splats, one replicate after the other
-  bool correlated = false;    // errors of pixels depend on each other, and only replicates tell that of a region
-  Transform feature_space{};  // from the recentred world to the space of the layers of normals and positions
-  Sensor sensor{};            // through which samples go before they are added
+  uint32_t replicates = 2;    // kept here: those from number first_replicate on, of `of_replicates` of the whole image
+  uint32_t first_replicate = 0;
+  uint32_t of_replicates = 0;  // 0: as many as up to the last one kept
+  bool features = true;        // albedo, normal, depth, coverage
+  bool positions = false;      // beside the features, if there are any
+  bool alpha = false;          // and the light of what it covers
+  bool ids = false;            // of objects and materials
+  bool splats = false;         // light comes as splats, one replicate after the other
+  bool correlated = false;     // errors of pixels depend on each other, and only replicates tell that of a region
+  Transform feature_space{};   // from the recentred world to the space of the layers of normals and positions
+  Sensor sensor{};             // through which samples go before they are added
+
+  // How many replicates the whole image has.
+  uint32_t all_replicates() const { return of_replicates > 0 ? of_replicates : first_replicate + replicates; }
 };
 
+// A replicate is named here by its place among those that are kept, from 0 on.
 class Film {
  public:
   explicit Film(const FilmSettings& settings);

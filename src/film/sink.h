@@ -27,9 +27,10 @@ class Sink {
 
   // The samples of one pixel (full-image coordinates inside the crop) in one pass, replicate by replicate. They are
   // summed here and reach the film when their replicate is done. In a pass, no other item has samples of this pixel.
+  // Replicates are named by their numbers in the whole image.
   class Pixel {
    public:
-    Pixel(Sink& sink, int x, int y) : sink_(sink), x_(x), y_(y) {}
+    Pixel(Sink& sink, int x, int y) : sink_(sink), x_(x), y_(y), replicate_(sink.film_.settings().first_replicate) {}
     ~Pixel();
     Pixel(const Pixel&) = delete;
     Pixel& operator=(const Pixel&) = delete;
@@ -41,7 +42,7 @@ class Sink {
 
     Sink& sink_;
     int x_, y_;
-    uint32_t replicate_ = 0;
+    uint32_t replicate_;
     PixelSums sums_;  // of replicate_
     StrongestSample strongest_;
     PixelIds ids_;
@@ -69,7 +70,7 @@ inline void Sink::Pixel::add(uint32_t replicate, uint32_t index, PixelSample s) 
     fold();
     replicate_ = replicate;
   }
-  const uint32_t number = index * film.replicates + replicate;
+  const uint32_t number = index * film.all_replicates() + replicate;
   ids_.offer({s.distance2, number, s.ids});
   admit({x_, y_, number}, film.sensor, s, sink_.counts_.invalid);
   strongest_.offer({static_cast<float>(sums_.add(s)), number});
@@ -77,7 +78,7 @@ inline void Sink::Pixel::add(uint32_t replicate, uint32_t index, PixelSample s) 
 }
 
 inline void Sink::Pixel::fold() {
-  if (sums_.count > 0) sink_.film_.add(x_, y_, replicate_, sums_);
+  if (sums_.count > 0) sink_.film_.add(x_, y_, replicate_ - sink_.film_.settings().first_replicate, sums_);
   sums_ = {};
 }
 

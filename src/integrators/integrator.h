@@ -6,6 +6,7 @@
 #include <string>
 
 #include "film/sink.h"
+#include "integrators/pass.h"
 #include "samplers/sampler.h"
 
 namespace etd {
@@ -22,14 +23,6 @@ struct IntegratorTraits {
 
 // Splats and other correlated pixels have no error of their own without a spread of replicates.
 inline constexpr uint32_t kCorrelatedReplicates = 8;
-
-// The samples [begin, end) of the replicates [first_replicate, end_replicate) of every pixel. The schedule of passes
-// depends on sample indices alone.
-struct Pass {
-  uint32_t index = 0;
-  uint32_t begin = 0, end = 0;
-  uint32_t first_replicate = 0, end_replicate = 0;
-};
 
 // What an integrator needs beside its own parameters.
 struct IntegratorContext {

@@ -48,8 +48,9 @@ void PixelIntegrator::render(const Pass& pass, uint32_t, size_t item, Sink& sink
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       Sink::Pixel pixel(sink, x, y);
+      const auto [begin, end] = pass.samples(x, y);
       for (uint32_t replicate = pass.first_replicate; replicate < pass.end_replicate; ++replicate)
-        for (uint32_t index = pass.begin; index < pass.end; ++index)
+        for (uint32_t index = begin; index < end; ++index)
           pixel.add(replicate, index, sample(x, y, replicate, index));
     }
 }

@@ -11,7 +11,6 @@
 namespace etd {
 namespace {
 
-constexpr uint32_t kLongestPass = 16;       // samples per replicate: keeps items short enough to stop soon
 constexpr double kPredictionMargin = 1.1;   // by which a pass may take longer than the last one did
 constexpr double kWorthCuttingShort = 0.1;  // of the time limit: less is given back rather than spent on half a pass
 
@@ -34,24 +33,34 @@ class SharedCounts {
   ItemCounts sum_;
 };
 
-double share_without_samples(const Film& film) {
+// How many samples pixels have.
+void count_samples(const Film& film, RenderResult& result) {
   const PixelBounds& crop = film.settings().crop;
-  double empty = 0, all = 0;
+  double empty = 0, all = 0, fewest = HUGE_VAL, most = 0;
   for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x, ++all) empty += film.total(x, y).count == 0 ? 1 : 0;
-  return all > 0 ? empty / all : 0;
+    for (int x = crop.x0; x < crop.x1; ++x, ++all) {
+      const double count = film.total(x, y).count;
+      fewest = std::min(fewest, count);
+      most = std::max(most, count);
+      empty += count == 0 ? 1 : 0;
+    }
+  if (all == 0) return;
+  result.spp = static_cast<uint32_t>(fewest);
+  result.empty = empty / all;
+  result.unequal = result.unequal || fewest != most;
 }
 
 class RenderLoop {
  public:
-  RenderLoop(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
-             const std::atomic<bool>* stop)
+  RenderLoop(Integrator& integrator, Film& film, const DriverSettings& settings, Schedule& schedule,
+             RenderObserver& observer, const std::atomic<bool>* stop)
       : integrator_(integrator),
         traits_(integrator.traits()),
         film_(film),
         settings_(settings),
         replicates_(film.settings().replicates),
-        samples_(settings.spp / replicates_),
+        first_replicate_(film.settings().first_replicate),
+        schedule_(schedule),
         observer_(observer),
         stop_(stop),
         workers_(settings.threads) {}
@@ -65,23 +74,23 @@ class RenderLoop {
   bool over(const Pass& pass) const {
     return traits_.may_be_cut && (stop_requested() || (pass.index > 0 && seconds() >= settings_.seconds));
   }
-  bool render_pass(const Pass& pass);
+  bool render_pass(Pass pass);
   bool render_replicates(const Pass& pass);
   bool render_phase(const Pass& pass, uint32_t phase, double share_before, double share_after);
   void fold_splats(const Pass& pass, const ItemCounts& before);
   void show_film() {
     if (observer_.wants_film()) observer_.on_film(film_);
   }
-  std::optional<StoppedBy> reason_to_stop(const Pass& done);
   bool worth_starting(const Pass& pass) const;
-  double expected_spp() const;
+  Schedule::SoFar so_far() const { return {film_, result_.error}; }
   RenderProgress progress(const Pass& pass, double share_of_pass) const;
 
   Integrator& integrator_;
   const IntegratorTraits traits_;
   Film& film_;
   const DriverSettings& settings_;
-  const uint32_t replicates_, samples_;
+  const uint32_t replicates_, first_replicate_;
+  Schedule& schedule_;
   RenderObserver& observer_;
   const std::atomic<bool>* stop_;
   Workers workers_;
@@ -103,7 +112,8 @@ RenderResult RenderLoop::run() {
       result_.stopped_by = StoppedBy::kMemory;
     }
   }
-  if (result_.spp == 0) result_.empty = share_without_samples(film_);
+  count_samples(film_, result_);
+  result_.error_tests = schedule_.error_tests();
   const ItemCounts counts = counts_.sum();
   result_.rays = counts.rays;
   result_.invalid = counts.invalid;
@@ -112,33 +122,42 @@ RenderResult RenderLoop::run() {
 }
 
 void RenderLoop::run_passes() {
-  for (Pass pass = first_pass(samples_); pass.begin < samples_; pass = next_pass(pass, samples_)) {
+  std::optional<Pass> pass = schedule_.next(so_far());
+  if (!pass) result_.stopped_by = schedule_.reason();
+  while (pass) {
     const double begun = seconds();
-    pass.end_replicate = replicates_;
-    const bool complete = render_pass(pass);
+    const bool complete = render_pass(*pass);
     result_.error = estimated_error(film_, workers_);
     if (!complete) {
       result_.unequal = any_items_;
       result_.stopped_by = stop_requested() ? StoppedBy::kInterrupt : StoppedBy::kTime;
-      break;
+      return;
     }
-    result_.spp = pass.end * replicates_;
-    seconds_per_sample_ = (seconds() - begun) / (pass.end - pass.begin);
-    const std::optional<StoppedBy> reason = reason_to_stop(pass);
-    RenderProgress now = progress(pass, 1);
+    seconds_per_sample_ = (seconds() - begun) / (pass->end - pass->begin);
+    const std::optional<Pass> following = schedule_.next(so_far());
+    std::optional<StoppedBy> reason;
+    if (!following)
+      reason = schedule_.reason();
+    else if (stop_requested())
+      reason = StoppedBy::kInterrupt;
+    else if (!worth_starting(*following))
+      reason = StoppedBy::kTime;
+    RenderProgress now = progress(*pass, 1);
     if (reason) now.share = 1;
     observer_.on_pass_end(now);
     if (reason) {
       result_.stopped_by = *reason;
-      break;
+      return;
     }
     show_film();
+    pass = following;
   }
 }
 
 // False when items were left out, here and below.
-bool RenderLoop::render_pass(const Pass& pass) {
+bool RenderLoop::render_pass(Pass pass) {
   any_items_ = false;
+  pass.first_replicate = first_replicate_, pass.end_replicate = first_replicate_ + replicates_;
   if (!traits_.splats) return render_replicates(pass);
   // There is one buffer for splats, which belongs to one replicate at a time.
   for (Pass one = pass; one.first_replicate < pass.end_replicate; ++one.first_replicate) {
@@ -155,7 +174,7 @@ bool RenderLoop::render_replicates(const Pass& pass) {
   const uint32_t phases = integrator_.phases(pass);
   const double parts = static_cast<double>(phases) * replicates_;
   const double part = static_cast<double>(phases) * (pass.end_replicate - pass.first_replicate) / parts;
-  const double before = static_cast<double>(pass.first_replicate) / replicates_;
+  const double before = static_cast<double>(pass.first_replicate - first_replicate_) / replicates_;
   for (uint32_t phase = 0; phase < phases; ++phase) {
     const double from = before + part * phase / phases;
     if (!render_phase(pass, phase, from, from + part / phases)) return false;
@@ -188,20 +207,9 @@ void RenderLoop::fold_splats(const Pass& pass, const ItemCounts& before) {
   const ItemCounts now = counts_.sum();
   const PixelBounds& crop = film_.settings().crop;
   for_each_item(workers_, static_cast<size_t>(crop.height()), [&](size_t row) {
-    film_.fold_splats(crop.y0 + static_cast<int>(row), pass.first_replicate, now.light_paths - before.light_paths,
-                      now.rays.total() - before.rays.total());
+    film_.fold_splats(crop.y0 + static_cast<int>(row), pass.first_replicate - first_replicate_,
+                      now.light_paths - before.light_paths, now.rays.total() - before.rays.total());
   });
-}
-
-std::optional<StoppedBy> RenderLoop::reason_to_stop(const Pass& done) {
-  if (done.end == samples_) return StoppedBy::kSamples;
-  if (stop_requested()) return StoppedBy::kInterrupt;
-  if (settings_.error > 0 && tests_error(done.end, replicates_)) {
-    ++result_.error_tests;
-    if (result_.error <= settings_.error) return StoppedBy::kError;
-  }
-  if (!worth_starting(next_pass(done, samples_))) return StoppedBy::kTime;
-  return {};
 }
 
 // Passes that end in time leave an image of equal sample counts, the same as without a time limit. Only when much time
@@ -213,44 +221,32 @@ bool RenderLoop::worth_starting(const Pass& pass) const {
   return kPredictionMargin * needed <= left || left >= kWorthCuttingShort * settings_.seconds;
 }
 
-// The samples per pixel at which the error will be found small enough, if its square goes on falling like 1/n.
-double RenderLoop::expected_spp() const {
-  if (!(settings_.error > 0) || !std::isfinite(result_.error)) return HUGE_VAL;
-  const double needed = std::max(result_.spp * sqr(result_.error / settings_.error), double{kFirstErrorTest});
-  return replicates_ * std::exp2(std::ceil(std::log2(std::max(needed / replicates_, 1.0))));
-}
-
 RenderProgress RenderLoop::progress(const Pass& pass, double share_of_pass) const {
   RenderProgress now{
       .spp = settings_.spp, .rays = counts_.sum().rays.total(), .seconds = seconds(), .error = result_.error};
   now.spp_done = (pass.begin + (pass.end - pass.begin) * share_of_pass) * replicates_;
-  now.share = std::max(now.spp_done / std::min<double>(settings_.spp, expected_spp()), now.seconds / settings_.seconds);
+  const double expected = std::min<double>(settings_.spp, schedule_.expected(so_far()) * replicates_);
+  now.share = std::max(now.spp_done / expected, now.seconds / settings_.seconds);
   constexpr double kAlmostAll = 0.999;
   now.share = std::min(now.share, kAlmostAll);
   return now;
 }
 
-Pass cut_pass(uint32_t index, uint32_t begin, uint32_t length, uint32_t samples) {
-  return {.index = index, .begin = begin, .end = begin + std::min(length, samples - std::min(begin, samples))};
-}
-
 }  // namespace
 
-Pass first_pass(uint32_t samples_per_replicate) { return cut_pass(0, 0, 1, samples_per_replicate); }
-
-Pass next_pass(const Pass& last, uint32_t samples_per_replicate) {
-  return cut_pass(last.index + 1, last.end, std::clamp(last.end, 1u, kLongestPass), samples_per_replicate);
-}
-
-bool tests_error(uint32_t samples_per_replicate, uint32_t replicates) {
-  const bool power_of_two = (samples_per_replicate & (samples_per_replicate - 1)) == 0;
-  return power_of_two && uint64_t{samples_per_replicate} * replicates >= kFirstErrorTest;
+RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, Schedule& schedule,
+                    RenderObserver& observer, const std::atomic<bool>* stop) {
+  return RenderLoop(integrator, film, settings, schedule, observer, stop).run();
 }
 
 RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
                     const std::atomic<bool>* stop) {
-  assert(settings.spp % film.settings().replicates == 0);
-  return RenderLoop(integrator, film, settings, observer, stop).run();
+  const uint32_t replicates = film.settings().replicates;
+  assert(settings.spp % replicates == 0);
+  UniformSchedule uniform(settings.spp / replicates);
+  UntilError until_error(uniform, settings.error, replicates);
+  Schedule& schedule = settings.error > 0 ? static_cast<Schedule&>(until_error) : uniform;
+  return render(integrator, film, settings, schedule, observer, stop);
 }
 
 }  // namespace etd

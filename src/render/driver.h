@@ -8,14 +8,9 @@
 #include "film/film.h"
 #include "integrators/integrator.h"
 #include "render/estimated_error.h"
+#include "render/schedule.h"
 
 namespace etd {
-
-// More samples than anybody waits for; a render without a limit of its own runs until something else stops it.
-inline constexpr uint32_t kMaxSpp = 1u << 30;
-
-// Samples per pixel before which the error is not tested: fewer do not know their error well enough.
-inline constexpr uint32_t kFirstErrorTest = 32;
 
 struct DriverSettings {
   uint32_t spp = 16;          // at most; a multiple of the film's replicates
@@ -45,9 +40,6 @@ class RenderObserver {
   virtual void on_film(const Film&) {}
 };
 
-// What ended a render: the last sample, the caller's `stop`, the clock, the error that was asked for, or no memory.
-enum class StoppedBy { kSamples, kInterrupt, kTime, kError, kMemory };
-
 struct RenderResult {
   RayCounts rays;
   InvalidSamples invalid;  // that were left out of the film
@@ -60,19 +52,13 @@ struct RenderResult {
   double error = HUGE_VAL;  // estimated_error() of the film
 };
 
-// The passes for n samples per replicate: [0,1), [1,2), [2,4), [4,8), [8,16), then steps of 16, the last one cut to n.
-Pass first_pass(uint32_t samples_per_replicate);
-// The one after `last`; it begins at n when there is none.
-Pass next_pass(const Pass& last, uint32_t samples_per_replicate);
-
-// Whether stopping by error is considered after this many samples per replicate: at the powers of two, which end
-// passes, from 32 samples per pixel on. These are 32 2^k samples per pixel when the replicates are a power of two.
-bool tests_error(uint32_t samples_per_replicate, uint32_t replicates);
-
 // Renders into an empty film. When `stop` becomes true, or a pass that did not look too long turns out to be when the
 // time is over, running items finish, the others are left out, and the film holds a valid estimate of unequal sample
 // counts; so it does when memory runs out. Other exceptions of the integrator pass through.
 RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, RenderObserver& observer,
                     const std::atomic<bool>* stop = nullptr);
+// The same with a schedule of the caller's; samples and error of the settings count for progress alone.
+RenderResult render(Integrator& integrator, Film& film, const DriverSettings& settings, Schedule& schedule,
+                    RenderObserver& observer, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace etd

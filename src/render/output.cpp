@@ -222,7 +222,10 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   };
   add("sampler", std::string(settings.sampler == SamplerKind::kSobol ? "sobol" : "independent"));
   add("seed", std::to_string(settings.seed));
-  add("replicates", static_cast<int>(settings.replicates));
+  add("replicates", static_cast<int>(settings.replicate_count));
+  if (settings.replicate_count != settings.replicates)
+    add("replicate_range", fmt::format("{} to {} of {}", settings.first_replicate,
+                                       settings.first_replicate + settings.replicate_count - 1, settings.replicates));
   add("spp", static_cast<int>(result.spp));
   add("spp_planned", settings.spp_unlimited ? MetadataValue(std::string("unlimited")) : static_cast<int>(settings.spp));
   add("spp_unequal", std::string(result.unequal ? "true" : "false"));
@@ -238,9 +241,9 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("rays.shadow", std::to_string(result.rays.shadow));
   add("seconds", result.seconds);
   add("error", result.error);
-  add("stderr",
-      std::string(settings.replicates >= kReplicatesForSpread ? "spread of the replicates"
-                                                              : "second moments (conservative for sobol samples)"));
+  add("stderr", std::string(settings.replicate_count >= kReplicatesForSpread
+                                ? "spread of the replicates"
+                                : "second moments (conservative for sobol samples)"));
   add("biased", bias_text(bias, settings.sensor, result));
   add("invalid_samples", invalid_text(result.invalid));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));

@@ -38,7 +38,9 @@ FilmSettings film_settings(const RenderSettings& s) {
   return {.width = s.width,
           .height = s.height,
           .crop = s.crop,
-          .replicates = s.replicates,
+          .replicates = s.replicate_count,
+          .first_replicate = s.first_replicate,
+          .of_replicates = s.replicates,
           .features = s.features,
           .positions = s.positions,
           .alpha = s.alpha,
@@ -98,8 +100,10 @@ FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, co
   return_freed_memory();
   FinishedRender finished{Film(film), {}};
   const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
-  const DriverSettings driver{
-      .spp = settings.spp, .threads = settings.threads, .seconds = settings.seconds, .error = settings.error};
+  const DriverSettings driver{.spp = settings.spp / settings.replicates * settings.replicate_count,
+                              .threads = settings.threads,
+                              .seconds = settings.seconds,
+                              .error = settings.error};
   finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);
   return finished;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "film/film_model.h"
 #include "integrators/make_integrator.h"
@@ -130,6 +131,13 @@ void apply_traits(const RenderOverrides& overrides, RenderSettings& settings, Di
                                       "pixel alone, so only their spread tells the error",
                                       name, kReplicatesForSpread));
     settings.replicates = kReplicatesForSpread;
+  }
+  settings.replicate_count = settings.replicates;
+  if (const auto range = overrides.replicate_range) {
+    std::tie(settings.first_replicate, settings.replicate_count) = *range;
+    if (range->second == 0 || uint64_t{range->first} + range->second > settings.replicates)
+      diagnostics.error({}, fmt::format("there are no replicates {} to {}: the image has {}, counted from 0",
+                                        range->first, uint64_t{range->first} + range->second - 1, settings.replicates));
   }
   settings.features = overrides.features.value_or(true) && traits.features;
   settings.alpha = overrides.alpha.value_or(false);

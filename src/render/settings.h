@@ -24,7 +24,8 @@ struct RenderSettings {
   bool spp_unlimited = false;  // nobody asked for a number of samples: spp is the largest possible one
   double seconds = HUGE_VAL;   // of rendering, at most
   double error = 0;            // that is small enough to stop (estimated_error()); 0: never
-  uint32_t replicates = 2;
+  uint32_t replicates = 2;     // of the whole image
+  uint32_t first_replicate = 0, replicate_count = 2;  // those that are rendered
   uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
   ModelUse integrator;  // with the overrides applied
@@ -47,6 +48,7 @@ struct RenderOverrides {
   std::optional<std::pair<int, int>> size;
   std::optional<PixelBounds> crop;
   std::optional<uint32_t> spp, replicates;
+  std::optional<std::pair<uint32_t, uint32_t>> replicate_range;  // the first one and how many are rendered of them
   // Stop conditions. With one of them, the samples that the scene asks for do not count, only those given here.
   std::optional<double> seconds, error;
   std::optional<uint64_t> seed;

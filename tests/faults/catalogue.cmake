@@ -160,12 +160,12 @@ edit(lights/diffuse_area.h [[emission.two_sided ? 0.5f * pdf_hemisphere_cosine]]
      [[emission.two_sided ? (FAULT ? 1.0f : 0.5f) * pdf_hemisphere_cosine]])
 
 fault(emission-disk-of-half-the-scene "rays of infinite lights enter through a disk as wide as half of the scene" "Examples/LightBattery.*infinite*")
-edit(lights/light.cpp [[frame.to_world({at.x, at.y, -1.0f}) * scene.radius]]
-     [[frame.to_world({(FAULT ? 0.5f : 1.0f) * at.x, (FAULT ? 0.5f : 1.0f) * at.y, -1.0f}) * scene.radius]])
+edit(lights/emission_disks.cpp [[to_world({at.x, at.y, -1.0f}) * chosen.radius]]
+     [[to_world({(FAULT ? 0.5f : 1.0f) * at.x, (FAULT ? 0.5f : 1.0f) * at.y, -1.0f}) * chosen.radius]])
 
 fault(emission-disk-without-area "the density of rays of infinite lights leaves out how wide the scene is" "Examples/LightBattery.*infinite*")
-edit(lights/light.cpp [[return pdf_disk() / sqr(scene.radius);]]
-     [[return pdf_disk() / (FAULT ? 1.0f : sqr(scene.radius));]])
+edit(lights/emission_disks.cpp [[static_cast<double>(pdf_disk()) / sqr(static_cast<double>(s.radius));]]
+     [[static_cast<double>(pdf_disk()) / (FAULT ? 1.0 : sqr(static_cast<double>(s.radius)));]])
 
 fault(emission-stretch-of-moving-lights "the density of emission leaves out how a moving light's area changes"
       "Examples/LightBattery.*stretching*")
@@ -244,6 +244,45 @@ edit(integrators/path.cpp [[* scene.light_alpha(choice->light, s->on_light)]]
 
 fault(holes-throw-shadows "shadow rays do not pass through holes" "${tests}:Alpha.*")
 edit(scene/scene.h [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_holes || intersect(ray, hit));]])
+
+# ---- paths from lights
+
+set(light "All/StatisticalLight.*")
+fault(splat-without-filter "every pixel that a splat reaches gets all of it" "${light}/pinhole_wide_gaussian")
+edit(integrators/camera_splat.cpp [[scene_.filter.eval(offset);]] [[FAULT ? 1.0f : scene_.filter.eval(offset);]])
+
+fault(panorama-with-edges "splats do not go around the edges of a panorama" "${light}/equirectangular:${light}/equal_area")
+edit(integrators/camera_splat.cpp [[if (!scene_.camera.film_repeats())]] [[if (FAULT || !scene_.camera.film_repeats())]])
+
+fault(panorama-not-turned "splats that cross a pole of a panorama stay on their meridian" "${light}/equirectangular")
+edit(cameras/spherical.cpp [[} else if (odd_row) {]] [[} else if (!FAULT && odd_row) {]])
+
+fault(light-paths-of-the-crop "splats are divided by the light paths of the crop" "Sink.*:LightTracing.*")
+edit(film/film.cpp [[const double pixels = static_cast<double>(settings_.width) * static_cast<double>(settings_.height);]]
+     [[const double pixels = FAULT ? static_cast<double>(pixel_count(settings_.crop))
+                             : static_cast<double>(settings_.width) * static_cast<double>(settings_.height);]])
+
+fault(splats-not-carried "sums of splats lose what goes from the lower to the upper half" "SplatBuffer.*")
+edit(film/splat_buffer.h [[before + low < before ? 1 : 0;]] [[!FAULT && before + low < before ? 1 : 0;]])
+
+fault(light-choice-not-divided "paths from lights are not divided by the probability of their light" "${light}/mixed")
+edit(integrators/light.cpp [[(alpha / choice->probability);]] [[(alpha / (FAULT ? 1.0f : choice->probability));]])
+
+fault(lamp-without-cosine "the light itself is joined to the camera without its cosine" "${light}/equal_area")
+edit(integrators/light.cpp [[const float geometry = std::abs(dot(point.ng, c->wi)) * c->weight;]]
+     [[const float geometry = (FAULT ? 1.0f : std::abs(dot(point.ng, c->wi))) * c->weight;]])
+
+fault(radiance-along-light-paths "paths from lights scatter as paths from the camera do"
+      "StatisticalAgreement.BumpyRoom:StatisticalAgreement.BumpyGlass")
+edit(integrators/light.cpp [[scatter.eval_cos(wo, c->wi, TransportMode::kImportance, rng)]]
+     [[scatter.eval_cos(wo, c->wi, FAULT ? TransportMode::kRadiance : TransportMode::kImportance, rng)]])
+
+fault(density-of-one-disk "rays of infinite lights have the density of the disk that was chosen" "${lights}")
+edit(lights/emission_disks.cpp [[if (level == known || meets(s))]] [[if (level == known || (!(FAULT && known >= 0) && meets(s)))]])
+
+fault(far-things-let-light-through "what lies before the start of a ray from infinitely far away does not block it"
+      "${light}/under_a_far_roof")
+edit(integrators/light.cpp [[depth == 1 && emitted->starts_within;]] [[!FAULT && depth == 1 && emitted->starts_within;]])
 
 # ---- geometry
 
