@@ -11,7 +11,7 @@
 namespace etd {
 
 std::span<const ModelDecl* const> integrator_models();
-// Of a use whose parameters have been checked. The scene must outlive the integrator.
+// Makes the integrator of a use whose parameters have been checked. The scene must outlive the integrator.
 std::unique_ptr<Integrator> make_integrator(const ModelUse& use, const Scene& scene, const IntegratorContext& context,
                                             Diagnostics& diagnostics);
 

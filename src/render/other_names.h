@@ -8,7 +8,7 @@
 
 namespace etd {
 
-// Of samplers rendered with "sobol", of integrators rendered with "path"; of other families none.
+// Returns the names of samplers rendered with "sobol" or of integrators rendered with "path"; other families have none.
 std::span<const std::string_view> other_names(Family family);
 
 // Makes a use of such a name one of ours that keeps what ours takes, with a note that says what is used and what is
