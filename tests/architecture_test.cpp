@@ -38,8 +38,7 @@ const std::map<std::string, int, std::less<>> kFloors = {
 const std::set<std::pair<std::string, std::string>> kSideways = {
     {"bsdfs", "phase"}, {"params", "core"}, {"io", "spectrum"}, {"denoise", "metrics"}, {"lab", "verify"}};
 
-// Where the headers of an outside library may be included: everything that begins like the first, only under the
-// second.
+// Headers of an outside library may be included where this says: all that begin like the first, only under the second.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kLibraries = {{{"embree", "src/accel/embree/"},
                                                                                       {"OpenImageIO/", "src/io/"},
                                                                                       {"OpenEXR/", "src/io/"},

@@ -1,4 +1,4 @@
-// For tests that run the program itself.
+// Helps tests that run the program itself.
 #pragma once
 
 #include <gtest/gtest.h>

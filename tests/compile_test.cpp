@@ -1,5 +1,5 @@
-// From a description to a scene: instances, recentring, orientation, what is left out, and that all mistakes are told
-// together.
+// Tests the way from a description to a scene: instances, recentring, orientation, what is left out, and that all
+// mistakes are told together.
 #include "scene/compile.h"
 
 #include <gtest/gtest.h>

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "cli_fixture.h"
-#include "formats/pbrt/reader.h"
 #include "io/image.h"
-#include "render/session.h"
-#include "scene/scene.h"
+#include "render/output.h"
+#include "render_helper.h"
 #include "spectrum/srgb.h"
 
 namespace etd {
@@ -33,14 +32,10 @@ Shape "sphere" "float radius" 0.7
 )";
 
 LayeredImage render_layers(const std::string& filter, bool alpha) {
-  Diagnostics diagnostics;
   RenderOverrides overrides;
   overrides.spp = 16;
   overrides.alpha = alpha;
-  auto prepared = prepare_render(read_pbrt_text(filter + kThings, "test", ".", diagnostics), overrides, diagnostics);
-  EXPECT_TRUE(prepared) << diagnostics.format_all();
-  RenderObserver nobody;
-  return finished_image(*prepared, run_render(*prepared, nobody));
+  return render_image(filter + kThings, ".", overrides);
 }
 
 constexpr float kSky[] = {0.5f, 0.25f, 1.0f};

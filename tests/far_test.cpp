@@ -106,7 +106,7 @@ constexpr Thing kThings[] = {
     {"moving sphere", "ActiveTransform EndTime Translate 1 2 3 ActiveTransform All Shape \"sphere\""},
 };
 
-// In all directions that the camera and the light do not look along.
+// The thing is added in directions that the camera and the light do not look along.
 TEST(Far, ASingleThingAddedChangesNothing) {
   const Shot alone = shoot(scene_text({}));
   const Vec3d directions[] = {{1, 0, 1}, {-1, -1, -.3}, {0, -1, .1}, {0, 0, -1}, {-.6, -.2, .9}};
@@ -134,7 +134,7 @@ TEST(Far, ADimLampAddedChangesNothingButNoise) {
   }
 }
 
-// In an object of which instances are seen, and among the vertices of a mesh.
+// The parts are in an object of which instances are seen, or among the vertices of a mesh.
 TEST(Far, PartsOfWhatIsSeenMayBeFarAway) {
   const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [ -.2 -.3 0";
   const std::string corners = "0 1 1 ]\n    \"integer indices\"";
@@ -222,7 +222,7 @@ TEST(Far, TheWholeSceneMayBeFarAway) {
                           there.place + there.light + "ObjectInstance \"all\"\n";
   expect_same(near, shoot(all), "as an object");
   expect_same(near, shoot(all + "Translate 9e5 0 0 ObjectInstance \"all\"\n"), "as an instance");
-  // With coordinates that are far away in the object itself.
+  // Here the coordinates are far away in the object itself.
   expect_same(near,
               shoot(head(there) + kObject + there.light + "ObjectBegin \"all\"\n" + there.place + there.ground +
                     kContent + "ObjectEnd\nObjectInstance \"all\" Translate 9e5 0 0 ObjectInstance \"all\"\n"),
@@ -257,7 +257,7 @@ TEST(Far, WhatCannotBePreciseIsNamed) {
                  "\nShape \"trianglemesh\" \"integer motionsteps\" 2 \"point3 P\" [ -1e9 -1e9 -1e7 1e9 0 1e7 0 1e9 0 "
                  "-1e9 -1e9 -1e7 1e9 0 1e7 0 1e9 1 ]\n");
   EXPECT_NE(deforming.find("test:8:7: warning: a face of this trianglemesh"), std::string::npos) << deforming;
-  // Where the doubles of the file are too coarse, and where the directions of rays are.
+  // The doubles of the file are too coarse in the first scene, and the directions of rays in the second.
   const std::string beyond =
       warning_of("LookAt 1e15 0 0  1e15 1 0  0 0 1\nCamera \"perspective\"\n", "Translate 1e15 3 0 Shape \"sphere\"\n");
   EXPECT_NE(beyond.find("test:7:26: warning: this sphere"), std::string::npos) << beyond;

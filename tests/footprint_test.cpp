@@ -17,7 +17,7 @@ Camera camera_of(const ModelUse& use, const Transform& to_world, int width, int 
   return camera;
 }
 
-// Where the ray of a place on the film meets a plane.
+// Returns where the ray of a place on the film meets a plane.
 Point3 on_plane(const Camera& camera, float x, float y, Point3 p, Vec3 n) {
   const Ray ray = camera.generate_ray({{x, y}, {0.5f, 0.5f}, 0.5f});
   return ray.o + ray.d * (dot(p - ray.o, n) / dot(ray.d, n));

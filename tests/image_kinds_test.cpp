@@ -82,7 +82,7 @@ TEST(ImageKinds, OfLayersThatWithColoursIsTaken) {
 }
 
 TEST(ImageKinds, LuminanceAndChromaAreColours) {
-  // Of (0.5, 1, 0.25) in Rec. 709.
+  // The colour is (0.5, 1, 0.25) in Rec. 709.
   const double y = 0.2126 * 0.5 + 0.7152 + 0.0722 * 0.25;
   const auto l = static_cast<float>(y), ry = static_cast<float>(0.5 / y - 1), by = static_cast<float>(0.25 / y - 1);
   const ImageResult result = read_exr({{"", kSmall, kSmall, {flat("Y", l), flat("RY", ry), flat("BY", by)}, ""}});
@@ -288,7 +288,7 @@ TEST(ImageKinds, TexelsThatAreNotFiniteBecomeTheMeanOfTheirNeighbours) {
   EXPECT_EQ(read_finite_image(write("b.pfm", {nan, 0, 0, 0, inf, 0}, 2)).error, "none of its texels is finite");
 }
 
-// In memory and by way of tiles, the first time and every other time.
+// They tell it in memory and by way of tiles, the first time and every other time.
 TEST(ImageKinds, TexturesTellWhatWasNotTakenAsItStands) {
   const TempFolder folder;
   std::vector<float> values(3 * 64, 1.0f);

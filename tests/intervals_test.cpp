@@ -61,7 +61,7 @@ double student_quantile(double confidence, double dof) {
   return low;
 }
 
-// Of the luminance of each pixel. `render(seed)` makes a film.
+// Studies the luminance of each pixel. `render(seed)` makes a film.
 template <class Render>
 std::vector<PixelStudy> study(size_t seeds, Render&& render) {
   struct Moments {

@@ -105,7 +105,7 @@ TEST(InvalidSamples, NeverReachTheFilm) {
   RenderObserver nobody;
   for (const float bad : {kNan, kInfinity, -1.0f}) {
     Defective integrator(context, bad);
-    // By drawing each sample alone.
+    // What is expected is found by drawing each sample alone.
     InvalidSamples expected;
     for (int y = 1; y < 12; ++y)
       for (int x = 2; x < 20; ++x)

@@ -117,7 +117,7 @@ TEST(SlowLightBattery, NoFalseAlarmOfEmissionInTwentySeeds) {
         EXPECT_TRUE(r.passed) << "seed " << seed << ": " << to_string(r);
 }
 
-// Of a light whose samples are changed, and the densities that are told of them likewise.
+// Returns the failures of a light whose samples are changed, and the densities that are told of them likewise.
 std::set<std::string> emission_failures(LightModel m, const std::function<void(EmissionSample&)>& sample,
                                         const std::function<void(EmissionDensity&)>& density = {}) {
   m.sample_le = [=, make = m.sample_le](Vec2 u, Vec2 v) {

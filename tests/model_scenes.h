@@ -45,9 +45,10 @@ struct RegionMeans {
   std::array<MeanEstimate, 3> rgb;
 };
 
-// Of the whole picture, then of each block.
+// Returns the means of the whole picture, then those of each block.
 std::vector<RegionMeans> region_means(const Film& film);
-// In a text file, a line for each region. A file that does not exist or is none of these reads as empty.
+// The means stand in a text file, a line for each region. A file that does not exist or is none of these reads as
+// empty.
 void write_means(const std::filesystem::path& file, const std::vector<RegionMeans>& means);
 std::vector<RegionMeans> read_means(const std::filesystem::path& file);
 

@@ -65,7 +65,7 @@ TEST_P(ObjectLight, ShinesOnceForEachInstance) {
   EXPECT_EQ(two->summary.lights.begin()->second, 2u);
   EXPECT_EQ(two->names.lights.size(), 2u);
   EXPECT_EQ(luminance(two->lights[0].power()), luminance(two->lights[1].power()));
-  // By power alike, and a quarter by what the camera gets of them.
+  // Both are chosen alike by power, and in a quarter of all cases by what the camera gets of them.
   EXPECT_GE(two->light_sampler.probability(0), 0.375f);
   EXPECT_GE(two->light_sampler.probability(1), 0.375f);
 }

@@ -1,17 +1,14 @@
 // OFF files in the dialects that programs write, and what is said about broken ones.
 #include <gtest/gtest.h>
 
-#include "io/mesh.h"
+#include "mesh_text.h"
 #include "shared_path.h"
-#include "temp_folder.h"
 
 namespace etd {
 namespace {
 
-MeshResult read_text(std::string_view text) {
-  const TempFolder folder;
-  return read_off(folder.write("mesh.off", text));
-}
+MeshResult read_text(std::string_view text) { return read_mesh_text(read_off, text); }
+void expect_problem(std::string_view text, std::string_view problem) { expect_only_problem(read_text(text), problem); }
 
 constexpr const char* kVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
@@ -24,13 +21,6 @@ void expect_square(std::string_view text, std::vector<std::string> notes = {}) {
   ASSERT_EQ(result.mesh->triangles.size(), 2u) << text;
   EXPECT_EQ(result.mesh->triangles[0], (std::array<uint32_t, 3>{0, 1, 2})) << text;
   EXPECT_EQ(result.mesh->triangles[1], (std::array<uint32_t, 3>{0, 2, 3})) << text;
-}
-
-void expect_problem(std::string_view text, std::string_view problem) {
-  const MeshResult result = read_text(text);
-  EXPECT_FALSE(result.mesh) << text;
-  ASSERT_EQ(result.problems.size(), 1u) << text;
-  EXPECT_EQ(result.problems[0], problem);
 }
 
 TEST(Off, ReadsTheDialects) {

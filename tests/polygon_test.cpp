@@ -29,7 +29,7 @@ double area_of(const Flat& p) {
   return sum;
 }
 
-// Where the corners of a flat polygon are put in space.
+// Says where the corners of a flat polygon are put in space.
 struct Place {
   Vec3d u{1, 0, 0}, v{0, 1, 0}, at{0, 0, 0};
   Point3d point(const std::array<double, 2>& p) const { return Point3d() + (at + u * p[0] + v * p[1]); }
@@ -67,7 +67,7 @@ Cut cut(const Flat& flat, const Place& place = {}) {
   return result;
 }
 
-// Of the triangles in the polygon's own plane, so that the place does not matter.
+// Measures the triangles in the polygon's own plane, so that the place does not matter.
 void expect_covers(const Flat& flat, const Cut& result, const std::string& what) {
   const double area = area_of(flat), sign = area < 0 ? -1 : 1;
   double sum = 0, most_negative = 0;
@@ -87,7 +87,7 @@ void expect_covers(const Flat& flat, const std::string& what, const Place& place
   expect_covers(flat, cut(flat, place), what);
 }
 
-// From every corner and in both directions.
+// Begins at every corner and goes in both directions.
 void expect_covers_from_all_corners(Flat flat, const std::string& what, const Place& place = {}) {
   for (int direction = 0; direction < 2; ++direction) {
     for (size_t i = 0; i < flat.size(); ++i) {
@@ -200,7 +200,7 @@ TEST(Polygon, RandomOnesAnywhere) {
   }
 }
 
-// On a coarse grid, where corners meet and lie on edges of others: polygons grow by squares, and never over themselves.
+// Polygons grow by squares, never over themselves, on a coarse grid, where corners meet and lie on edges of others.
 TEST(Polygon, OutlinesOfCellsOnAGrid) {
   HashStream random(5);
   for (int i = 0; i < 200; ++i) {
@@ -212,8 +212,8 @@ TEST(Polygon, OutlinesOfCellsOnAGrid) {
       const int x = static_cast<int>(random.next_u32() % kSide), y = static_cast<int>(random.next_u32() % kSide);
       if (has(x - 1, y) || has(x + 1, y) || has(x, y - 1) || has(x, y + 1)) inside[x][y] = true;
     }
-    // Along the outline with the cells on the left, turning right where two cells meet at a corner only: holes that
-    // touch the outline there become part of it. Those that do not are not looked at.
+    // The way goes along the outline with the cells on the left, turning right where two cells meet at a corner only:
+    // holes that touch the outline there become part of it. Those that do not are not looked at.
     int x0 = 0, y0 = 0;
     while (!has(x0, y0)) x0 = (x0 + 1) % kSide, y0 += x0 == 0;
     Flat flat;

@@ -74,7 +74,7 @@ TEST(Portal, ShowsTheSkyThroughItselfAndNothingElse) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 o = sample_sphere_uniform(uniform(h)) * (3 * h.next_float()), w = sample_sphere_uniform(uniform(h));
     const Point3 p{o.x, o.y, o.z};
-    // Where the ray meets the window's plane, in front of p.
+    // The ray meets the window's plane at p + w t; this is in front of p if t is positive.
     const float along = dot(w, window.frame.z), t = dot(window.corner - p, window.frame.z) / along;
     const Vec3 at = window.frame.to_local(p + w * t - window.corner);
     const bool inside = along > 0 && t > 0 && at.x > 0 && at.x < 1.5f && at.y > 0 && at.y < 2;

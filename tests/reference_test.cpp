@@ -116,7 +116,7 @@ class SceneAgainstReference {
   bool same_size() const {
     return reference_.mean.width == film_.settings().width && reference_.mean.height == film_.settings().height;
   }
-  // Of one channel, or of "RGB" together; prints a line of the table.
+  // Compares one channel, or "RGB" together; prints a line of the table.
   Comparison compare(const std::string& channels) const {
     Quantity quantity;
     if (channels.size() == 1) quantity = *parse_quantity("beauty." + channels);

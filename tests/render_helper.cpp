@@ -42,6 +42,15 @@ Film render_text(const std::string& text, const std::string& folder, const Rende
   return render_description(read_pbrt_text(text, "test", source_path(folder), diagnostics), overrides, diagnostics);
 }
 
+LayeredImage render_image(const std::string& text, const std::string& folder, const RenderOverrides& overrides) {
+  Diagnostics diagnostics;
+  auto prepared =
+      prepare_render(read_pbrt_text(text, "test", source_path(folder), diagnostics), overrides, diagnostics);
+  if (!prepared) throw std::runtime_error(diagnostics.format_all());
+  RenderObserver nobody;
+  return finished_image(*prepared, run_render(*prepared, nobody));
+}
+
 std::vector<float> picture(const Film& film) {
   const PixelBounds& crop = film.settings().crop;
   std::vector<float> rgb;

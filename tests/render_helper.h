@@ -10,6 +10,8 @@
 
 namespace etd {
 
+struct LayeredImage;
+
 // A file of the project, such as "tests/scenes/closed/sky.pbrt".
 std::filesystem::path source_path(const std::string& relative);
 
@@ -18,6 +20,9 @@ Film render_scene(const std::filesystem::path& file, const RenderOverrides& over
 Film render_description(const SceneDescription& description, const RenderOverrides& overrides);
 // `folder` is where relative file names in the text start, "tests/scenes/agree" for example.
 Film render_text(const std::string& text, const std::string& folder, const RenderOverrides& overrides);
+
+// The same, to the image with all its layers.
+LayeredImage render_image(const std::string& text, const std::string& folder, const RenderOverrides& overrides);
 
 // The picture's R, G, B, row by row.
 std::vector<float> picture(const Film& film);

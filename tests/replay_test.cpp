@@ -76,7 +76,7 @@ void expect_same_light(const PixelSample& a, const PixelSample& b, const std::st
   }
 }
 
-// Of every sample of a small image.
+// Expects of every sample of a small image that its replay is the same.
 void expect_replays(const std::string& file, const RenderOverrides& overrides) {
   Prepared prepared(file, overrides);
   const FinishedRender finished = prepared.run();

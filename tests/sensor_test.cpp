@@ -191,7 +191,6 @@ TEST(Film, HalfFloatsAreRoundedAndStayFinite) {
 // means over samples where misses count 0, so positions divided by coverage lie on the plane.
 TEST(Film, GBufferHasPositionsInItsSpace) {
   for (const bool world : {false, true}) {
-    Diagnostics diagnostics;
     const std::string text = std::string("Film \"gbuffer\" \"integer xresolution\" 16 \"integer yresolution\" 16") +
                              (world ? " \"string coordinatesystem\" \"world\"" : "") +
                              "\nPixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 0\n"
@@ -200,10 +199,7 @@ TEST(Film, GBufferHasPositionsInItsSpace) {
                              "\"integer indices\" [ 0 1 2  0 2 3 ]\n";
     RenderOverrides o;
     o.spp = 16;
-    auto prepared = prepare_render(read_pbrt_text(text, "test", ".", diagnostics), o, diagnostics);
-    ASSERT_TRUE(prepared) << diagnostics.format_all();
-    RenderObserver nobody;
-    const LayeredImage image = finished_image(*prepared, run_render(*prepared, nobody));
+    const LayeredImage image = render_image(text, ".", o);
     const auto at = [&](const char* channel, size_t pixel) { return image.plane(channel)[pixel]; };
     for (const size_t pixel : {size_t{3 * 16 + 2}, size_t{6 * 16 + 13}}) {
       const float x = 2 * (static_cast<float>(pixel % 16) + 0.5f) / 16 - 1;  // on the film

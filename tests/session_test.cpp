@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/pbrt/reader.h"
+#include "render_helper.h"
 #include "scene/scene.h"
 
 namespace etd {
@@ -27,15 +28,6 @@ Translate -1.2 0 0
 Shape "sphere" "float radius" 0.6
 )";
 
-Film render_text(const RenderOverrides& overrides) {
-  Diagnostics diagnostics;
-  const SceneDescription description = read_pbrt_text(kScene, "test", ".", diagnostics);
-  std::optional<PreparedRender> prepared = prepare_render(description, overrides, diagnostics);
-  EXPECT_TRUE(prepared) << diagnostics.format_all();
-  RenderObserver nobody;
-  return run_render(*prepared, nobody).film;
-}
-
 void expect_same_bits(const Film& a, const Film& b, const PixelBounds& where) {
   for (int y = where.y0; y < where.y1; ++y)
     for (int x = where.x0; x < where.x1; ++x)
@@ -55,15 +47,15 @@ TEST(Session, BitsDoNotDependOnThreadsTilesOrCrop) {
   for (const char* sampler : {"sobol", "independent"}) {
     RenderOverrides one;
     one.spp = 12, one.seed = 7, one.threads = 1, one.sampler = sampler;
-    const Film reference = render_text(one);
+    const Film reference = render_text(kScene, ".", one);
     const PixelBounds all{0, 0, 30, 20};
     RenderOverrides other = one;
     other.threads = 2;
-    expect_same_bits(reference, render_text(other), all);
+    expect_same_bits(reference, render_text(kScene, ".", other), all);
     other.threads = 3, other.tile_size = 5;
-    expect_same_bits(reference, render_text(other), all);
+    expect_same_bits(reference, render_text(kScene, ".", other), all);
     other.crop = PixelBounds{7, 4, 23, 19};
-    expect_same_bits(reference, render_text(other), *other.crop);
+    expect_same_bits(reference, render_text(kScene, ".", other), *other.crop);
   }
 }
 

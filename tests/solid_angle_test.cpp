@@ -88,7 +88,7 @@ TEST(SphericalRectangle, SamplesAreUniform) {
   }
 }
 
-// From grazing the ball to so far away that it is a point for floats.
+// The distances go from grazing the ball to so far away that it is a point for floats.
 TEST(SphericalCap, SamplesAreUniformAndOnTheNearSide) {
   for (const double distance : {1.001, 1.5, 10.0, 1e4}) {
     const Point3d center = kOrigin + normalize(Vec3d{1, -2, 0.5}) * distance;

@@ -127,7 +127,7 @@ TEST(ColorSpaces, WhitesAndPrimaries) {
   EXPECT_FALSE(find_color_space("prophoto"));
 }
 
-// Through the declared parameters of a model, as scenes use them.
+// Spectra are read through the declared parameters of a model, as scenes use them.
 TEST(SpectrumValue, ReadsEveryWayToWriteASpectrum) {
   const ModelDecl decl{Family::kMaterial,
                        "test",

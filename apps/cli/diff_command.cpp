@@ -18,7 +18,7 @@ struct Arguments : DifferenceOptions {
   std::string html;
 };
 
-// Where a command that compares ends, in place of the usual codes: as diff and cmp do.
+// A command that compares ends with one of these in place of the usual codes, as diff and cmp do.
 enum DiffExit : int { kSame = 0, kDiffer = 1, kFailed = 2, kNoVerdict = 3 };
 
 constexpr const char* kExamples =

@@ -9,8 +9,8 @@
 namespace etd::cli {
 namespace {
 
-// Where the picture goes that the scene's film names, with either kind of slash: there if its folder exists, seen from
-// the current one, and otherwise into the current one.
+// Returns where the picture goes that the scene's film names, with either kind of slash: there if its folder exists,
+// seen from the current one, and otherwise into the current one.
 std::string output_of_film(std::string filename) {
   std::replace(filename.begin(), filename.end(), '\\', '/');
   const std::filesystem::path wanted = filename;

@@ -20,8 +20,8 @@ int g_failure = 0;  // errno of the first answer that could not be written
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);  // nobody reads any more
   std::signal(SIGXFSZ, SIG_IGN);  // a file would become longer than the user allows
-  // In this order: a new descriptor is the lowest one that is free. They are opened the wrong way round, so that
-  // reading and writing fail as they would if the stream were closed.
+  // The order matters: a new descriptor is the lowest one that is free. The streams are opened the wrong way round, so
+  // that reading and writing fail as they would if the stream were closed.
   for (const auto& [stream, mode] :
        {std::pair(STDIN_FILENO, O_WRONLY), std::pair(STDOUT_FILENO, O_RDONLY), std::pair(STDERR_FILENO, O_RDONLY)})
     if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", mode));

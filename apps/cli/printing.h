@@ -12,7 +12,7 @@ namespace etd::cli {
 // standard streams, and messages would go into them. Call before anything else.
 void prepare_standard_streams();
 
-// To standard error: problems, warnings, progress.
+// Prints problems, warnings and progress to standard error.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
   print_or_drop(stderr, format, std::forward<Args>(args)...);
@@ -21,13 +21,13 @@ void tell(fmt::format_string<Args...> format, Args&&... args) {
 // Once: that the system gives fewer threads than were wanted.
 void tell_of_refused_threads();
 
-// To standard output, beside a product that is a file.
+// Prints to standard output, beside a product that is a file.
 template <class... Args>
 void report(fmt::format_string<Args...> format, Args&&... args) {
   print_or_drop(stdout, format, std::forward<Args>(args)...);
 }
 
-// To standard output, as the product of the command.
+// Prints the product of the command to standard output.
 void answer_text(std::string_view text);
 template <class... Args>
 void answer(fmt::format_string<Args...> format, Args&&... args) {

@@ -31,7 +31,7 @@ struct VerifySceneArguments {
   bool json = false, quiet = false;
 };
 
-// For one model more samples than in a run of all of them.
+// A run of one model takes this many times the samples that it gets in a run of all of them.
 constexpr double kSamplesOfOne = 4;
 
 int unknown(const std::string& what, const std::string& word, const std::set<std::string>& valid) {

@@ -22,7 +22,8 @@ class Accelerator {
   bool intersect(const Ray& ray, Hit& hit) const;
   // Whether anything lies strictly between ray.t_min and ray.t_max.
   bool occluded(const Ray& ray) const;
-  // Under which map rays meet an instance at a time, as Embree interpolates it; the identity for one without shapes.
+  // Returns the map under which rays meet an instance at a time, as Embree interpolates it; the identity for one
+  // without shapes.
   Affine instance_to_world(uint32_t instance, float time) const;
   // Memory of the acceleration structure alone.
   size_t bytes() const;

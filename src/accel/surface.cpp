@@ -5,7 +5,7 @@
 namespace etd {
 namespace {
 
-// In the space of its mesh; `instance` is where that space is, null for the world itself.
+// Returns the point in the space of its mesh; `instance` is where that space is, null for the world itself.
 SurfacePoint point_on_mesh(const Mesh& mesh, const Hit& hit, const Placement* instance) {
   float margin = 0;
   if (instance) margin = placement_error(*instance, triangle_position(mesh, hit.primitive, hit.u, hit.v, hit.time));

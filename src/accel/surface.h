@@ -1,4 +1,5 @@
-// From a hit to the surface point in the world: dispatches over triangles, patches and quadrics, and through instances.
+// Finds the surface point of a hit in the world: dispatches over triangles, patches and quadrics, and through
+// instances.
 #pragma once
 
 #include "accel/geometry.h"

@@ -51,7 +51,7 @@ struct BsdfSample {
 class Bsdf {
  public:
   Bsdf() = default;
-  // Of a closure in the list of bsdf.cpp.
+  // Holds a closure of a type in the list of bsdf.cpp.
   template <class T>
   explicit Bsdf(const T& closure);
 

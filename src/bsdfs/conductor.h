@@ -58,13 +58,13 @@ struct RoughConductor {
   }
 
   Lobe lobes() const { return kReflection | kGlossy; }
-  // Of the flat surface: exact as alpha goes to 0; above that it leaves out what is lost between facets and that they
-  // are tilted. No closed form is known, and as a feature the metal's colour is what matters.
+  // This is the albedo of the flat surface: exact as alpha goes to 0; above that it leaves out what is lost between
+  // facets and that they are tilted. No closed form is known, and as a feature the metal's colour is what matters.
   Spectrum albedo(Vec3 wo) const { return fresnel_conductor(std::min(std::abs(wo.z), 1.0f), eta, k); }
 
  private:
   static Vec3 upper(Vec3 w) { return {w.x, w.y, std::abs(w.z)}; }
-  // Of directions on one side. Where they are opposite up to rounding, only the surface normal is left.
+  // Both directions are on one side. Where they are opposite up to rounding, only the surface normal is left.
   static Vec3 half_vector(Vec3 wo, Vec3 wi) {
     const Vec3 sum = wo + wi;
     const float length2 = dot(sum, sum);

@@ -16,7 +16,7 @@ namespace etd {
 // error below 0.005.
 class EnergyTable {
  public:
-  // Of closures whose only parameter left is alpha, made by `closure_of`. `two_sided`: both sides of the surface
+  // Tabulates closures whose only parameter left is alpha, made by `closure_of`. `two_sided`: both sides of the surface
   // differ.
   template <class F>
   EnergyTable(const F& closure_of, bool two_sided);

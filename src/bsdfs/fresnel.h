@@ -12,9 +12,9 @@ struct DielectricBoundary {
   float cos_t = 0;        // cosine of the refracted direction to the normal; 0 under total internal reflection
 };
 
-// At incidence cosine cos_i in [0, 1], `eta` = index on the far side over that on the near side, > 0 (Born and Wolf
-// 1999, section 1.5.2, equations 21). The refracted cosine is written with (eta - 1)(eta + 1) + cos_i^2, which does not
-// cancel at grazing incidence.
+// The incidence cosine cos_i is in [0, 1], and `eta` > 0 is the index on the far side over that on the near side (Born
+// and Wolf 1999, section 1.5.2, equations 21). The refracted cosine is written with (eta - 1)(eta + 1) + cos_i^2, which
+// does not cancel at grazing incidence.
 ETD_FN DielectricBoundary fresnel_dielectric(float cos_i, float eta) {
   if (eta == 1.0f) return {0.0f, cos_i};
   const float scaled_cos2 = (eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i;

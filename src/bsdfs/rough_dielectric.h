@@ -75,7 +75,7 @@ struct RoughDielectric {
     return {sides & kReflection ? reflectance : 0.0f, sides & kTransmission ? transmittance : 0.0f};
   }
 
-  // In double, and symmetric in the two directions: where wo grazes the facet, floats would lose the cosine.
+  // Works in double, and symmetrically in the two directions: where wo grazes the facet, floats would lose the cosine.
   Facet find_facet(Vec3 wo, Vec3 wi) const {
     if (wo.z == 0.0f || wi.z == 0.0f) return {};
     const bool reflects = same_hemisphere(wo, wi), outside = wo.z > 0.0f;

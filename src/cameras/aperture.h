@@ -42,11 +42,11 @@ class Aperture {
                           CameraData& data);
 
   Shape shape_ = Shape::kRound;
-  // Of a star: corners at the radius outer_, the first one up, and between them others at inner_. A regular polygon is
+  // A star has corners at the radius outer_, the first one up, and between them others at inner_. A regular polygon is
   // the star whose inner corners lie on its sides.
   int points_ = 0;
   float outer_ = 1, inner_ = 1;
-  // Of an image: its distribution, its upper left corner and the steps from texel to texel.
+  // An image has its distribution, its upper left corner and the steps from texel to texel.
   const GridDistribution* image_ = nullptr;
   Vec2 corner_, step_;
   Vec2 turn_{1, 0};  // cosine and sine of the rotation, counterclockwise

@@ -39,11 +39,11 @@ class Camera {
   // The time of a ray that is made with this CameraSample::time.
   float ray_time(float u) const;
 
-  // Of a ray of unit direction that starts on the lens, at its time. Film positions may be up to `margin` pixels beyond
-  // the film, from where filters spread light onto it; those of a spherical camera, whose film has no beyond, are on
-  // it. Nothing if the camera makes no such ray: it starts beside the lens or in front of it (up to rounding), or goes
-  // to where the film is not. Nothing also of an orthographic camera that `blurs_alike`: its rays have lost from which
-  // point of the film they are.
+  // Returns the importance of a ray of unit direction that starts on the lens, at its time. Film positions may be up to
+  // `margin` pixels beyond the film, from where filters spread light onto it; those of a spherical camera, whose film
+  // has no beyond, are on it. Nothing if the camera makes no such ray: it starts beside the lens or in front of it (up
+  // to rounding), or goes to where the film is not. Nothing also of an orthographic camera that `blurs_alike`: its rays
+  // have lost from which point of the film they are.
   std::optional<CameraImportance> we(const Ray& ray, float margin = 0) const;
   // The way from p (recentred world) at a ray's time to a point of the lens, in proportion to the aperture: u_lens in
   // [0, 1)^2. Nothing if the camera does not see p through that point on the film or within the margin.
@@ -77,7 +77,7 @@ struct CameraData {
 };
 
 std::span<const ModelDecl* const> camera_models();
-// Of a checked use; the perspective camera for an unknown name.
+// Makes the camera of a checked use; the perspective one for an unknown name.
 Camera make_camera(const ModelUse& use, const CameraFrame& frame, CameraData& data, Diagnostics& diagnostics);
 
 }  // namespace etd

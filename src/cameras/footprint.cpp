@@ -44,7 +44,7 @@ PixelFootprint::Step PixelFootprint::at(Point3 p, Vec3 n) const {
   const Frame film = Frame::from_z_tangent(w, right_);
   const Vec3 dx = film.x * (x_.origin + distance * x_.direction);
   const Vec3 dy = film.y * (y_.origin + distance * y_.direction);
-  // Along the ray onto the tangent plane.
+  // The steps are projected along the ray onto the tangent plane.
   constexpr float kEdgeOn = 1e-3f;
   const float cosine = dot(n, w), divisor = std::copysign(std::max(std::abs(cosine), kEdgeOn), cosine);
   return {dx - w * (dot(n, dx) / divisor), dy - w * (dot(n, dy) / divisor)};

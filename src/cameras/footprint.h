@@ -20,7 +20,8 @@ class PixelFootprint {
   // min(1, max(1/8, 1/sqrt(spp))): the spacing of `spp` samples in a pixel, not to let textures alias between passes.
   static float scale_for(uint32_t spp);
 
-  // At the point p (recentred world) of a surface of unit normal n. Finite; longest where the surface is seen edge on.
+  // Returns the step at the point p (recentred world) of a surface of unit normal n. It is finite, and longest where
+  // the surface is seen edge on.
   Step at(Point3 p, Vec3 n) const;
 
  private:

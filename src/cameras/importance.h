@@ -6,11 +6,11 @@
 
 namespace etd {
 
-// Of one ray from the camera. W_e counts the film in pixels: the integral of W_e L cos over the points of the lens and
-// the directions whose film positions are in a pixel is the mean radiance of that pixel, which is what rays of weight
-// 1, spread evenly over the pixel, bring. So W_e cos is the density of generate_ray()'s rays per pixel of film. Neither
-// the pixel filter nor the shutter is part of it: what arrives at a film position is splatted with the normalised
-// filter, and times are those of Camera::ray_time().
+// This is the importance of one ray from the camera. W_e counts the film in pixels: the integral of W_e L cos over the
+// points of the lens and the directions whose film positions are in a pixel is the mean radiance of that pixel, which
+// is what rays of weight 1, spread evenly over the pixel, bring. So W_e cos is the density of generate_ray()'s rays per
+// pixel of film. Neither the pixel filter nor the shutter is part of it: what arrives at a film position is splatted
+// with the normalised filter, and times are those of Camera::ray_time().
 //
 // A density that is a delta is 1, and then W_e lacks its unit: the position of a pinhole, whose W_e is per steradian,
 // and the direction of parallel rays, whose W_e is per square metre.

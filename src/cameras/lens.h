@@ -15,7 +15,7 @@ struct Lens {
   static Lens create(const ParamReader& p, const CameraFrame& frame, CameraData& data);
 
   bool is_pinhole() const { return x == Vec3(); }
-  // From its middle to a point of it, in proportion to the aperture; 0 of a pinhole.
+  // Returns the way from its middle to a point of it, in proportion to the aperture; 0 for a pinhole.
   Vec3 sample(Vec2 u) const {
     if (is_pinhole()) return {};
     const Vec2 p = aperture.sample(u);

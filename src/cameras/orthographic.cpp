@@ -23,8 +23,9 @@ OrthographicCamera OrthographicCamera::create(const ParamReader& p, const Camera
   return c;
 }
 
-// Of the ray along unit d that belongs to a point of the film. A point of the lens is a direction: those of depth 1 lie
-// in a plane that is |forward . n| away, where the lens is as large as itself times its curvature.
+// Returns the importance of the ray along unit d that belongs to a point of the film. A point of the lens is a
+// direction: those of depth 1 lie in a plane that is |forward . n| away, where the lens is as large as itself times its
+// curvature.
 CameraImportance OrthographicCamera::through(Vec3d from_corner, float lens_density, Vec3 d) const {
   const PlaneBasis pixel(dx, dy);
   const double area = pixel.area(), height = std::abs(dot(to_double(forward), pixel.normal)) / area;

@@ -33,8 +33,8 @@ PerspectiveCamera PerspectiveCamera::create(const ParamReader& p, const CameraFr
   return c;
 }
 
-// Of the ray along unit d through a point of the lens. The film at depth 1 is |volume| / |normal| away and a pixel
-// there has the area |normal|, so that it fills the solid angle |normal| cos / |d / depth|^2.
+// Returns the importance of the ray along unit d through a point of the lens. The film at depth 1 is |volume| /
+// |normal| away and a pixel there has the area |normal|, so that it fills the solid angle |normal| cos / |d / depth|^2.
 std::optional<CameraImportance> PerspectiveCamera::through(Vec3d offset, float pdf_position, Vec3 d) const {
   const PlaneBasis pixel(dx, dy);
   const double volume = dot(to_double(corner), pixel.normal), depth = dot(to_double(d), pixel.normal) / volume;

@@ -20,7 +20,7 @@ struct Shutter {
   }
 };
 
-// Of a checked use.
+// Reads the shutter of a checked use.
 inline Shutter read_shutter(const ParamReader& p) {
   const Shutter s{p.number("shutteropen"), p.number("shutterclose")};
   if (s.close < s.open)

@@ -43,7 +43,7 @@ Vec3 SphericalCamera::direction(Vec2 st) const {
   return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
 }
 
-// Of a unit direction of camera space, the one in [0, width) x [0, height).
+// Returns the film position of a unit direction of camera space, the one in [0, width) x [0, height).
 Vec2 SphericalCamera::film(Vec3 d) const {
   Vec2 st;
   if (equal_area) {
@@ -69,7 +69,8 @@ Vec2 SphericalCamera::repeated(Vec2 film, int column, int row) const {
   return {(st.x + static_cast<float>(column)) / pixel.x, (st.y + static_cast<float>(row)) / pixel.y};
 }
 
-// Of a unit direction of the world, in which the axes need be neither at right angles nor of length 1.
+// Returns the importance of a unit direction of the world, in which the axes need be neither at right angles nor of
+// length 1.
 std::optional<CameraImportance> SphericalCamera::along(Vec3 d) const {
   const Vec3d a = to_double(x), b = to_double(y), c = to_double(z), w = to_double(d);
   const double volume = dot(a, cross(b, c));

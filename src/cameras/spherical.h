@@ -18,7 +18,7 @@ struct SphericalCamera {
     const Vec3 d = direction({s.film.x * pixel.x, s.film.y * pixel.y});
     return {origin, normalize(x * d.x + y * d.y + z * d.z)};
   }
-  // Of a point of the image as a share of its sides, in camera space.
+  // Returns the direction, in camera space, of a point of the image that is given in shares of its sides.
   Vec3 direction(Vec2 st) const;
   std::optional<CameraImportance> we(Point3 o, Vec3 d) const;
   std::optional<CameraConnection> sample_wi(Point3 p, Vec2 u_lens) const;

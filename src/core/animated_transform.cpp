@@ -26,7 +26,7 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
   return sum(a, std::cos(angle), normalize(sum(b, 1, a, -cosine)), std::sin(angle));
 }
 
-// From the columns of a rotation, dividing by the largest component (Shepperd 1978).
+// Makes a quaternion from the columns of a rotation, dividing by the largest component (Shepperd 1978).
 Quaternion quaternion_of(Vec3d x, Vec3d y, Vec3d z) {
   const double four_squares[4] = {1 + x.x + y.y + z.z, 1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z, 1 - x.x - y.y + z.z};
   const auto largest = std::max_element(four_squares, four_squares + 4) - four_squares;
@@ -188,7 +188,7 @@ AnimatedTransform::AnimatedTransform(const TransformPath& path, Vec3d centre, do
 }
 
 Transform AnimatedTransform::at(float time) const {
-  // In float, as Embree finds the step.
+  // The step is found in float, as Embree finds it.
   const float steps = static_cast<float>(keys_.size() - 1), scaled = time * steps;
   const float first = clamp(std::floor(scaled), 0.0f, steps - 1.0f);
   const double share = static_cast<double>(scaled - first);

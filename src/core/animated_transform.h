@@ -23,17 +23,18 @@ struct TransformParts {
   Vec3d scale{1, 1, 1};  // diagonal of S; negative in z alone where the map mirrors
   Vec3d skew;            // its entries xy, xz, yz
 
-  // Of an affine map that is not singular.
+  // Takes apart an affine map that is not singular.
   static TransformParts of(const Mat4& m);
-  // Between `a` at 0 and `b` at 1. Rotations by less than 3.6 degrees are interpolated linearly and normalised, as
-  // Embree and pbrt do: at most 1e-6 of them off.
+  // Interpolates between `a` at 0 and `b` at 1. Rotations by less than 3.6 degrees are interpolated linearly and
+  // normalised, as Embree and pbrt do: at most 1e-6 of them off.
   static TransformParts between(const TransformParts& a, const TransformParts& b, double t);
   Transform transform() const;
   // S alone.
   Transform rest() const;
 };
 
-// Where something is over time that moving things place within each other: a product of transforms, some of which move.
+// Tells where something is over time that moving things place within each other: a product of transforms, some of which
+// move.
 class TransformPath {
  public:
   TransformPath() = default;
@@ -61,7 +62,7 @@ class TransformPath {
 // Steps turn by less than 3.6 degrees, where Embree's own interpolation has the precision of float.
 class AnimatedTransform {
  public:
-  // In the precision in which Embree has them. A point p is mapped to T R (S p + shift).
+  // Keys have the precision in which Embree has them. A point p is mapped to T R (S p + shift).
   struct Key {
     Vec3 translation;
     float r = 1, i = 0, j = 0, k = 0;
@@ -75,7 +76,7 @@ class AnimatedTransform {
   Transform at(float time) const;
   // Whether it only turns and translates.
   bool is_rigid() const;
-  // By how much areas grow in the mean over time; exact where all directions grow alike.
+  // Returns by how much areas grow in the mean over time; exact where all directions grow alike.
   double mean_area_scale() const;
   // How far the pivot is from the centre in the space that S maps to, at most.
   float pivot_distance() const { return pivot_distance_; }

@@ -11,7 +11,8 @@ namespace etd {
 // A triangle projected to the unit sphere around a point (Arvo 1995, "Stratified Sampling of Spherical Triangles").
 class SphericalTriangle {
  public:
-  // Of the corners as seen from p; of solid angle 0 when p is at a corner or in the triangle's plane.
+  // Makes the triangle of the corners as seen from p; its solid angle is 0 when p is at a corner or in the triangle's
+  // plane.
   SphericalTriangle(Point3d p, const Point3d (&corners)[3]);
 
   double solid_angle() const { return solid_angle_; }
@@ -28,13 +29,13 @@ class SphericalTriangle {
 // Rectangles").
 class SphericalRectangle {
  public:
-  // Of the rectangle from `corner` along the perpendicular edges x and y, as seen from p; of solid angle 0 when p is in
-  // its plane.
+  // Makes the rectangle from `corner` along the perpendicular edges x and y, as seen from p; its solid angle is 0 when
+  // p is in its plane.
   SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d y);
 
   double solid_angle() const { return solid_angle_; }
-  // Where the sampled direction meets the rectangle, as shares of its edges in [0, 1]; only when the solid angle is
-  // positive.
+  // Returns where the sampled direction meets the rectangle, as shares of its edges in [0, 1]; only when the solid
+  // angle is positive.
   Vec2T<double> sample(Vec2 u) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 // Which of n cells x in [0, 1] is in.
 int cell_of(double x, int n) { return std::clamp(static_cast<int>(x * n), 0, n - 1); }
 
-// Where f, which grows from 0 at lo to f(hi) at hi and is linear between multiples of 1 / n, reaches `target`.
+// Returns where f, which grows from 0 at lo to f(hi) at hi and is linear between multiples of 1 / n, reaches `target`.
 template <class F>
 double invert(const F& f, double lo, double hi, int n, double target) {
   double a = lo, b = hi, fa = 0, fb = f(hi);

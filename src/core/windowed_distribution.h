@@ -23,18 +23,18 @@ class WindowedDistribution {
   // width * height densities up to a common factor, row by row, finite and positive.
   WindowedDistribution(int width, int height, std::span<const double> densities);
 
-  // Of the densities over the window.
+  // Returns the integral of the densities over the window.
   double integral(const Window& w) const {
     return sum(w.hi.x, w.hi.y) - sum(w.lo.x, w.hi.y) - sum(w.hi.x, w.lo.y) + sum(w.lo.x, w.lo.y);
   }
-  // For u in [0, 1)^2; only when the integral is positive.
+  // Takes u in [0, 1)^2; the integral must be positive.
   Point sample(Vec2 u, const Window& w) const;
   // Density of sample() at a point of the window, per area of the unit square.
   double pdf(Point p, const Window& w) const;
   size_t bytes() const { return sums_.size() * sizeof(double); }
 
  private:
-  // Of the densities over [0, x] x [0, y].
+  // Returns the integral of the densities over [0, x] x [0, y].
   double sum(double x, double y) const;
   double corner(int x, int y) const {
     return sums_[static_cast<size_t>(y) * static_cast<size_t>(width_ + 1) + static_cast<size_t>(x)];

@@ -21,7 +21,7 @@ struct FilmModel {
   std::string filename;
   bool half = false;  // EXR files hold 16-bit floats
   Sensor sensor;
-  // Of a gbuffer: positions are kept, and they and normals are written in camera space if this is set.
+  // A gbuffer keeps positions if the first is set, and writes them and normals in camera space if the second is.
   bool positions = false, in_camera_space = false;
 };
 

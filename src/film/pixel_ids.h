@@ -13,7 +13,7 @@ struct SurfaceIds {
   friend bool operator==(const SurfaceIds&, const SurfaceIds&) = default;
 };
 
-// As many as a float tells apart.
+// A float tells this many apart.
 inline constexpr uint32_t kMostIds = 1u << 24;
 
 struct PixelIds {

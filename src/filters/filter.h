@@ -35,7 +35,7 @@ class Filter {
 };
 
 std::span<const ModelDecl* const> filter_models();
-// Of a checked use; the gaussian for an unknown name.
+// Makes the filter of a checked use; the gaussian for an unknown name.
 Filter make_filter(const ModelUse& use, Diagnostics& diagnostics);
 
 }  // namespace etd

@@ -27,7 +27,7 @@ constexpr Beginning kBeginnings[] = {
     {"#usda", {"a USD scene", kScene}},
     {"PXR-USDC", {"a USD scene", kScene}}};
 
-// By the first word that is no comment.
+// Other formats are known by the first word that is no comment.
 struct FirstWord {
   std::string_view word;
   ForeignFormat format;

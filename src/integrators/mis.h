@@ -15,7 +15,7 @@ enum class MisHeuristic : uint8_t {
   kUniform,  // half to each
 };
 
-// Of a declared name: power, balance, maximum or uniform.
+// Returns the heuristic of a declared name: power, balance, maximum or uniform.
 inline MisHeuristic mis_heuristic(std::string_view name) {
   return name == "balance"   ? MisHeuristic::kBalance
          : name == "maximum" ? MisHeuristic::kMaximum

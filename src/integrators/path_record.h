@@ -113,7 +113,8 @@ class PathRecorder {
     last().light->visible = true;
     last().light->pdf_scatter = pdf_scatter, last().light->mis_weight = mis_weight;
   }
-  // Of the emission or light sample that was told last: light sampling reaches one event further than emission.
+  // Records the contribution of the emission or light sample that was told last: light sampling reaches one event
+  // further than emission.
   void contribution(int depth, const Spectrum& radiance) {
     PathVertex& v = last();
     if (depth == v.depth)

@@ -14,9 +14,9 @@ struct CutOut {
   std::string note;               // what has been guessed
 };
 
-// Of an image with the layer "foreground", or with a channel A, by which its colours are multiplied already as the
-// format prescribes. Of a render that kept neither, coverage is taken for alpha; then emission that is seen directly in
-// pixels that are not covered, if there is any, is what is behind everything, also where a pixel is covered in part.
+// Takes an image with the layer "foreground", or with a channel A, by which its colours are multiplied already as the
+// format prescribes. For a render that kept neither, coverage is taken for alpha; then emission that is seen directly
+// in pixels that are not covered, if there is any, is what is behind everything, also where a pixel is covered in part.
 CutOut cut_out(const LayeredImage& image);
 
 // Makes of colours multiplied by alpha those of what covers the pixel; black where nothing does.

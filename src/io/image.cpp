@@ -62,7 +62,7 @@ std::string read_texels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const
   return {};
 }
 
-// Where the pixels of an EXR file (its data window) lie in the picture (its display window).
+// Says where the pixels of an EXR file (its data window) lie in the picture (its display window).
 struct Window {
   int x = 0, y = 0, width = 0, height = 0;  // of the pixels, from the picture's top left corner
   int full_width = 0, full_height = 0;

@@ -106,9 +106,9 @@ class Image {
   static constexpr int kBlock = 8;  // texels near each other in the image are near in memory, too
 
   Image(int width, int height, int channels, TexelFormat format, const std::byte* rows);
-  // Of a format that is not bytes.
+  // The format must not be bytes.
   void set_texel(int x, int y, int c, float linear);
-  // Of a texel, in units of texels.
+  // Returns the place of a texel, in units of texels.
   size_t index(int x, int y) const {
     assert(x >= 0 && x < width_ && y >= 0 && y < height_);
     const size_t block = static_cast<size_t>(y / kBlock) * blocks_across_ + static_cast<size_t>(x / kBlock);

@@ -42,7 +42,7 @@ class ByteReader {
     const uint32_t low = little16();
     return little16() << 16 | low;
   }
-  // Up to the next zero.
+  // Reads up to the next zero.
   std::string text() {
     constexpr size_t kLongest = 256;
     std::string text;

@@ -12,11 +12,11 @@ namespace etd {
 
 // Each returns why the image must not be read, or an empty string.
 
-// Before a library sees the file: of EXR, GIF and JPEG files, whose libraries take memory when they open them. What is
-// no such file, or a broken one, is for the library to report.
+// Judges a file before a library sees it: EXR, GIF and JPEG files, whose libraries take memory when they open them.
+// What is no such file, or a broken one, is for the library to report.
 std::string image_header_problem(const std::filesystem::path& path, const Limits& limits);
 
-// Of the size that a header states, against the size of its file.
+// Judges the size that a header states by the size of its file.
 std::string image_size_problem(uint64_t width, uint64_t height, uint64_t bytes_per_pixel, uint64_t file_bytes,
                                const Limits& limits);
 

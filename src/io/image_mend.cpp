@@ -27,7 +27,8 @@ void Image::set_texel(int x, int y, int c, float linear) {
     std::memcpy(&texels_[4 * i], &linear, sizeof linear);
 }
 
-// From the rim of each hole inwards: those that have finite neighbours are mended together, then those that touch them.
+// Mends from the rim of each hole inwards: those that have finite neighbours are mended together, then those that touch
+// them.
 MendedImage mend_texels(Image image) {
   MendedImage result{std::move(image)};
   Image& im = result.image;

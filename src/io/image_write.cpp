@@ -34,7 +34,7 @@ std::string cannot_write(const fs::path& path, std::string why) {
   return why.empty() ? why : fmt::format("cannot write {}: {}", path.string(), why);
 }
 
-// Where encoders put their bytes. They notice a full disk late, never, or by ending the process: so they are told that
+// Encoders put their bytes here. They notice a full disk late, never, or by ending the process: so they are told that
 // all went well, and the file knows what did not.
 class FileProxy : public OIIO::Filesystem::IOProxy {
  public:

@@ -85,7 +85,7 @@ class ObjReader {
 
 ObjResult ObjReader::read() {
   use_material("");
-  // With the keyword, and one word to see that there are more.
+  // The limit counts the keyword, and one word to see that there are more.
   while (lines_.next(words_, true, limits_.corners + 2)) statement();
   count_vertices();
   if (problems_.empty())

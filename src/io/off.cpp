@@ -76,7 +76,7 @@ bool OffReader::next_line() {
   return lines_.next(words_);
 }
 
-// Across line ends; false at the end of the file.
+// Reads on across line ends; false at the end of the file.
 bool OffReader::next_word(std::string_view& word) {
   if (at_ == words_.size() && !next_line()) return false;
   word = words_[at_++];

@@ -19,7 +19,7 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
-  // Where the bytes go, for libraries that open files themselves. Empty when the file could not be created.
+  // Returns where the bytes go, for libraries that open files themselves. Empty when the file could not be created.
   const std::filesystem::path& path() const { return path_; }
   // Why the file could not be created, or what went wrong first while it was written; empty if nothing did.
   const std::string& error() const { return error_; }
@@ -44,7 +44,7 @@ class PendingFile {
 // nothing new behind. Empty when one can.
 std::string place_problem(const std::filesystem::path& path);
 
-// Where a file goes that is written to this path: links are followed, also those that lead to nothing yet.
+// Returns where a file goes that is written to this path: links are followed, also those that lead to nothing yet.
 std::filesystem::path follow_links(const std::filesystem::path& path);
 
 // Removes every pending file of this process, which must end afterwards. May be called by a signal handler.

@@ -11,7 +11,7 @@
 namespace etd {
 namespace {
 
-// Where the wanted vertex properties land in PlyValues::scalars.
+// The wanted vertex properties land in PlyValues::scalars in this order.
 constexpr std::string_view kSlotNames[] = {"x", "y", "z", "nx", "ny", "nz"};
 constexpr int kNormal = 3, kUv = 6;
 constexpr std::string_view kUvNames[][2] = {
@@ -171,7 +171,7 @@ bool PlyMeshReader::read_elements(PlyBody& body) {
   PlyValues values;
   for (const PlyElement& element : header_.elements) {
     if (element.properties.empty()) continue;
-    // Before anything is allocated: a header may promise more than the file can hold.
+    // This comes before anything is allocated: a header may promise more than the file can hold.
     if (const double least = body.least_bytes(element); least > static_cast<double>(body.bytes_left())) {
       problems_.add(
           fmt::format("line {}: {} of element {} take at least {:.0f} bytes, but only {} are left in the file",

@@ -36,7 +36,7 @@ class PlyBody {
   virtual PlyStep read(const PlyPlan& plan, PlyValues& values) = 0;
   // The line of the element read last, 0 in binary.
   virtual int line() const = 0;
-  // Where that element stands: "line 12: vertex 3" in text, "vertex 3" in binary, counted from 0.
+  // Says where that element stands: "line 12: vertex 3" in text, "vertex 3" in binary, counted from 0.
   std::string place(const PlyElement& element, uint64_t index) const {
     return fmt::format("{}{} {}", line() > 0 ? fmt::format("line {}: ", line()) : "", element.name, index);
   }

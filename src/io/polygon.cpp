@@ -122,7 +122,7 @@ int PolygonCutter::turn(uint32_t corner) const {
   return area > t.noise ? 1 : area < -t.noise ? -1 : 0;
 }
 
-// By the sum of its turns, which is 360 degrees unless it is twisted; spikes may turn either way.
+// Judges the outline by the sum of its turns, which is 360 degrees unless it is twisted; spikes may turn either way.
 PolygonCutter::Outline PolygonCutter::outline() const {
   int rounds = 0;
   bool convex = true, spikes = false;

@@ -26,7 +26,7 @@ class PolygonCutter {
            std::vector<std::array<uint32_t, 3>>& triangles);
 
  private:
-  // In the plane, scaled to a size of about 1, so that the polygon winds counterclockwise.
+  // Corners are in the plane, scaled to a size of about 1, so that the polygon winds counterclockwise.
   struct Corner {
     double x = 0, y = 0;
     uint32_t prev = 0, next = 0;
@@ -62,7 +62,7 @@ class PolygonCutter {
   bool project(const std::vector<Point3d>& positions, std::span<const uint32_t> corners);
   Edge edge(uint32_t from, uint32_t to) const;
   Triangle triangle_at(uint32_t corner) const;
-  // Of the triangle there: 1 for a convex corner, -1 for a reflex one, 0 for none within rounding.
+  // Returns the turn of the triangle there: 1 for a convex corner, -1 for a reflex one, 0 for none within rounding.
   int turn(uint32_t corner) const;
   Outline outline() const;
   bool is_spike(uint32_t corner) const;

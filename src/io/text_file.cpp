@@ -10,7 +10,7 @@ bool is_wide(std::string_view text) {
   using namespace std::string_view_literals;
   for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv})
     if (text.substr(0, mark.size()) == mark) return true;
-  // Without a mark: a letter and a zero, in either order.
+  // Without a mark, wide text begins with a letter and a zero, in either order.
   const auto is_letter = [](char c) { return c >= '\t' && c <= '~'; };
   return text.size() > 1 && ((text[0] == 0 && is_letter(text[1])) || (is_letter(text[0]) && text[1] == 0));
 }

@@ -20,7 +20,7 @@ class TextLines {
   // The words of the next line that has any, until the next call; false at the end of the text. A word that is a lone
   // backslash at the end of a line joins it with the next one when `joined` is set. Words beyond `most` are left out.
   bool next(std::vector<std::string_view>& words, bool joined = false, size_t most = SIZE_MAX);
-  // Of the line read last, counted from 1.
+  // Returns the number of the line read last, counted from 1.
   int line() const { return line_; }
   // Lines with words that are still to come.
   size_t count_rest() const;

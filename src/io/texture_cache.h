@@ -36,7 +36,7 @@ class TextureCache {
 
   // A file of write_tiled_levels(); null and a reason if it is none.
   std::shared_ptr<const CachedImage> open(const std::filesystem::path& path, std::string& error);
-  // Of the tiles in memory now.
+  // Counts the bytes of the tiles that are in memory now.
   size_t bytes_in_use() const;
   // What went wrong first when tiles were read, which were then taken as black; empty: nothing.
   std::string read_error() const;

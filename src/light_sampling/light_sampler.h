@@ -36,7 +36,7 @@ class LightSampler {
   // `viewer`: where the camera is, about.
   explicit LightSampler(std::span<const Light> lights, LightChoice choice = LightChoice::kPower, Point3 viewer = {});
 
-  // For u in [0, 1) with all the bits of a double. Nothing when no light emits.
+  // Takes u in [0, 1) with all the bits of a double. Returns nothing when no light emits.
   std::optional<Choice> sample(double u) const;
   float probability(uint32_t light) const { return table_.probability(light); }
 

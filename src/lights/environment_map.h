@@ -22,7 +22,7 @@ class EnvironmentMap {
     // Twice as wide as high: theta = pi v from +z down the rows, phi = 2 pi u from +x towards +y along them.
     kLatLong
   };
-  // By the image's proportions; nothing for others.
+  // Tells the layout by the image's proportions; nothing for others.
   static std::optional<Layout> layout_of(int width, int height);
 
   // The image's colours, negative ones as 0. Its proportions are those of a layout, and its values are finite.
@@ -37,7 +37,7 @@ class EnvironmentMap {
   // Density of sample() at the unit direction w, per solid angle.
   float pdf(Vec3 w, LightSampling sampling) const;
 
-  // Over all directions, sr times the unit of the values.
+  // Returns the integral over all directions, in sr times the unit of the values.
   Spectrum integral() const { return integral_; }
   // Irradiance on a surface whose normal is +z.
   Spectrum irradiance_up() const;

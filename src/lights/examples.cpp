@@ -124,7 +124,7 @@ LightExample textured_ball() {
   return {"diffuse(sphere, image)", Light(light), nullptr, q, data};
 }
 
-// In a space that is the world at time 0 and goes to `end`.
+// Puts the example in a space that is the world at time 0 and goes to `end`.
 LightExample moving(LightExample example, const Transform& end, float time) {
   const TransformPath path = TransformPath().then(TransformPair(Transform(), end));
   example.motion = std::make_shared<const AnimatedTransform>(path, Vec3d{}, 2.0);

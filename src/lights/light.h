@@ -94,7 +94,7 @@ class Light {
   static uint32_t kind_count();
 
  private:
-  // In the light's own space.
+  // The first two work in the light's own space.
   std::optional<LightSample> sample_still(Point3 p, Vec2 u, LightSampling sampling) const;
   float pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const;
   std::optional<LightSample> sample_moving(Point3 p, Vec2 u, LightSampling sampling, float time) const;
@@ -116,7 +116,8 @@ struct LightContext {
 };
 
 std::span<const ModelDecl* const> light_models();
-// Of a checked use that is no area light; nothing for an unknown name and when something is wrong, which is reported.
+// Makes the light of a checked use that is no area light; nothing for an unknown name and when something is wrong,
+// which is reported.
 std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics);
 std::span<const ModelDecl* const> area_light_models();
 

@@ -20,9 +20,10 @@ struct LightData {
   std::deque<Image> images;
   std::deque<GridDistribution> grids;
   std::deque<AnimatedTransform> motions;
-  // Of the files that were read, null where that failed: a light of an object is read once for all of its instances.
+  // These are the maps of the files that were read, null where that failed: a light of an object is read once for all
+  // of its instances.
   std::map<std::filesystem::path, const EnvironmentMap*> environment_of;
-  // Of a projection light's file and field of view.
+  // A slide belongs to a projection light's file and field of view.
   struct Slide {
     const Image* image = nullptr;
     const GridDistribution* texels = nullptr;

@@ -47,7 +47,7 @@ class TriangleSurface {
 // Two neighbouring triangles of a mesh that make a rectangle.
 class RectangleSurface {
  public:
-  // Of the triangles `first` and first + 1, if they do.
+  // Returns the rectangle of the triangles `first` and first + 1, if they make one.
   static std::optional<RectangleSurface> find(const Mesh& mesh, uint32_t first);
 
   float area() const { return area_; }
@@ -98,7 +98,7 @@ class QuadricSurface {
     double solid_angle() const { return seen.solid_angle(); }
     SurfacePoint sample(Vec2 u) const;
   };
-  // Of a whole ball (no ellipsoid) from outside.
+  // Returns the view of a whole ball (no ellipsoid) from outside.
   std::optional<View> seen_from(Point3 p) const;
 
  private:
@@ -125,7 +125,7 @@ class PatchSurface {
     double solid_angle() const { return seen.solid_angle(); }
     SurfacePoint sample(Vec2 u) const;
   };
-  // Of a rectangle; the solid angle of other patches has no closed form.
+  // Returns the view of a rectangle; the solid angle of other patches has no closed form.
   std::optional<View> seen_from(Point3 p) const;
 
  private:

@@ -77,7 +77,7 @@ inline ParamDecl position_param() {
           .doc = "Where the light is."};
 }
 
-// Where the light's "from" is, or its origin, in the recentred world.
+// Returns where the light's "from" is, or its origin, in the recentred world.
 inline Point3 light_position(const ParamReader& p, const LightContext& context) {
   if (!p.decl().find("from")) return to_float(context.to_world.point({0, 0, 0}));
   const std::vector<double> from = p.numbers("from");

@@ -12,7 +12,7 @@ struct PortalInfiniteLight {
   const PortalMap* map;
   float scale = 1;
 
-  // Of an infinite light with a "portal".
+  // Makes an infinite light with a "portal".
   static std::optional<PortalInfiniteLight> create(const ParamReader& p, const LightContext& context);
 
   bool is_infinite() const { return true; }

@@ -30,7 +30,8 @@ struct ProjectionIntensity {
                               power_param()}};
     return d;
   }
-  // Of an image that reaches so far from the axis at z = 1; a slide without its distribution gets one, kept by `data`.
+  // Makes the intensity of an image that reaches so far from the axis at z = 1; a slide without its distribution gets
+  // one, kept by `data`.
   static ProjectionIntensity of(LightData::Slide& slide, const Frame& axes, float half_x, float half_y,
                                 LightData& data);
   static std::optional<PointLight<ProjectionIntensity>> create(const ParamReader& p, const LightContext& context);

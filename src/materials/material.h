@@ -16,7 +16,7 @@ class Material {
  public:
   template <class T>
   explicit Material(const T& material);
-  // Of any material but a mix, for which resolve() comes first.
+  // Returns the closure of any material but a mix, for which resolve() comes first.
   Bsdf closure(const TexCoord& at, const TextureTable& textures) const;
 
   // The material itself, or of a mix the one of `all` that is chosen, down to one that is no mix. Takes one number of
@@ -36,11 +36,11 @@ class Material {
   TaggedStorage<240> storage_;
 };
 
-// Where the named materials of a scene stand in its array; nothing for those that are no surface.
+// Says where the named materials of a scene stand in its array; nothing for those that are no surface.
 using MaterialNames = std::map<std::string, std::optional<uint32_t>, std::less<>>;
 
 std::span<const ModelDecl* const> material_models();
-// Of a checked use; nothing for "interface", which is no surface at all.
+// Makes the material of a checked use; nothing for "interface", which is no surface at all.
 std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
                                       const MaterialNames& names = {});
 

@@ -68,7 +68,8 @@ Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const 
   if (normal_map >= 0) {
     const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at);
     if (is_black(rgb)) return plain;  // outside of an image that is not repeated: no normal at all
-    // Towards growing u and v. The frame below is right-handed all the same: closures do not tell y from -y.
+    // The normal of the map is given towards growing u and v. The frame below is right-handed all the same: closures do
+    // not tell y from -y.
     const Vec3 local{2.0f * rgb[0] - 1.0f, (2.0f * rgb[1] - 1.0f) * handedness(point), 2.0f * rgb[2] - 1.0f};
     if (!(dot(local, local) > 1e-8f)) return plain;
     n = normalize(plain.to_world(local));

@@ -29,7 +29,7 @@ class SurfaceScatter {
     return importance ? f * std::abs(dot(wi, ng_) / dot(wo, ng_)) : f;
   }
 
-  // Per solid angle.
+  // Returns the density per solid angle.
   float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides = kBothSides) const {
     if (mode == TransportMode::kRadiance) {
       const Vec3 light = frame_.to_local(wi);

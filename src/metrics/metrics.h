@@ -15,7 +15,7 @@ inline constexpr std::array<const char*, 5> kMetricColumns = {"RGB", "R", "G", "
 struct MetricRow {
   std::string name;
   std::string doc;
-  // By kMetricColumns; nothing where the metric has no value, as FLIP for a channel.
+  // Values are in the order of kMetricColumns; nothing where the metric has no value, as FLIP for a channel.
   std::array<std::optional<double>, kMetricColumns.size()> values;
 };
 
@@ -34,7 +34,7 @@ struct MetricTable {
   std::optional<double> find(const std::string& name, const std::string& column = "RGB") const;
 };
 
-// Of linear Rec.709 pictures of one size, not empty.
+// Compares linear Rec.709 pictures of one size, not empty.
 MetricTable compute_metrics(const Picture& test, const Picture& reference, const MetricOptions& options = {});
 
 }  // namespace etd

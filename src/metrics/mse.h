@@ -5,7 +5,7 @@
 
 namespace etd {
 
-// Of values x against a reference r of as many; 0 for none. In the square of their unit.
+// Returns the mean squared error of values x against a reference r of as many, in the square of their unit; 0 for none.
 inline double mse(std::span<const float> x, std::span<const float> r) {
   double sum = 0;
   for (size_t i = 0; i < x.size(); ++i) {

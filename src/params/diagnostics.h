@@ -52,7 +52,7 @@ class Diagnostics {
   void unsupported(SourceLoc loc, std::string what, std::string substitute);
 
   bool has_errors() const { return error_count() > 0; }
-  // With unsupported uses; counts those that are not kept, too.
+  // Counts errors and unsupported uses, those that are not kept, too.
   int error_count() const { return static_cast<int>(count(Severity::kError) + count(Severity::kUnsupported)); }
   bool allow_unsupported() const { return allow_unsupported_; }
   // What stands in for unsupported uses, "medium \"fog\": empty space", each pair once.

@@ -1,5 +1,5 @@
-// Where something stands in a text that the user gave: every value read from a file keeps its place, so that a message
-// can show it.
+// Tells where something stands in a text that the user gave: every value read from a file keeps its place, so that a
+// message can show it.
 #pragma once
 
 #include <cstdint>

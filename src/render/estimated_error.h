@@ -10,7 +10,7 @@ namespace etd {
 //   sqrt(mean over pixels of se^2 / (Y^2 + 0.01 Ybar^2)).
 // 0 for a black image, +inf where some pixel has fewer than two samples. The same bits for any number of threads.
 double estimated_error(const Film& film, Workers& workers);
-// On a number of threads as in DriverSettings.
+// Works on a number of threads as in DriverSettings.
 double estimated_error(const Film& film, int threads = 0);
 
 }  // namespace etd

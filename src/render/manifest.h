@@ -11,7 +11,8 @@
 
 namespace etd {
 
-// By id - 1 (film/pixel_ids.h): "sphere, box.pbrt:12", "tree (instance), wood.pbrt:40", "red (diffuse), box.pbrt:3".
+// Labels stand at id - 1 (film/pixel_ids.h): "sphere, box.pbrt:12", "tree (instance), wood.pbrt:40", "red (diffuse),
+// box.pbrt:3".
 struct IdLabels {
   std::vector<std::string> objects, materials;
 };

@@ -16,7 +16,7 @@ uint64_t peak_memory_bytes();
 // Gives the system back what was freed, as after loading: what is needed next is then all that is added.
 void return_freed_memory();
 
-// Of a render that has been prepared and not begun, in bytes.
+// Forecasts the memory of a render that has been prepared and not begun, in bytes.
 struct MemoryForecast {
   size_t film = 0;
   size_t textures = 0;  // that the cache of textures may yet load

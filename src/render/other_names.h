@@ -8,7 +8,7 @@
 
 namespace etd {
 
-// The names of samplers and integrators; of other families there are none.
+// Returns the names of samplers or integrators; other families have none.
 std::span<const std::string_view> other_names(Family family);
 // The name that ours has, for one of other_names().
 std::string_view our_name(Family family, std::string_view other);

@@ -1,4 +1,4 @@
-// From a film to files: the layers of the image, what is known about it, and the formats.
+// Turns a film into files: the layers of the image, what is known about it, and the formats.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,7 @@ PathItem shape_item(const ReplayedScene& in, const Hit& hit);
 PathItem light_item(const ReplayedScene& in, uint32_t light);
 PathItem material_item(const ReplayedScene& in, const Material* material);
 
-// In the coordinates of the scene's file.
+// Returns p in the coordinates of the scene's file.
 Point3d file_position(const ReplayedScene& in, Point3 p);
 
 }  // namespace etd

@@ -22,7 +22,8 @@ uint64_t hash_bytes(uint64_t hash, std::string_view bytes) {
   return hash;
 }
 
-// Where the number of samples was left to a limit of time or error, enough of them to contain every one taken.
+// Where the number of samples was left to a limit of time or error, the options ask for enough of them to contain every
+// one taken.
 std::vector<std::string> options(const PreparedRender& prepared, const RenderResult& result) {
   RenderOverrides overrides = prepared.overrides;
   if (const RenderSettings& s = prepared.settings; s.spp_unlimited) {
@@ -38,7 +39,7 @@ std::vector<std::string> options(const PreparedRender& prepared, const RenderRes
   return list;
 }
 
-// As a shell reads it back.
+// Quotes the word as a shell reads it back.
 std::string quoted(const std::string& word) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./,=:+@%-";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;

@@ -12,8 +12,8 @@
 
 namespace etd {
 
-// Of the texts that scene and view were read from, or of the scene's file itself if that is no text; meshes and images
-// do not count. 16 hexadecimal digits.
+// Hashes the texts that scene and view were read from, or the scene's file itself if that is no text; meshes and images
+// do not count. The hash has 16 hexadecimal digits.
 std::string hash_scene(const SceneDescription& description, const Sources& sources);
 
 // The command that shows this sample of an image step by step: the scene as it was named, and the options that matter.

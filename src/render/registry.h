@@ -17,7 +17,7 @@ inline constexpr Family kAllFamilies[] = {Family::kShape,     Family::kMaterial,
 std::span<const ModelDecl* const> all_models(Family family);
 // Null when the family has no model of this name.
 const ModelDecl* find_any_model(Family family, std::string_view name);
-// As find_any_model(); an unknown name is reported at the use, with the names that would be valid.
+// Does as find_any_model(); an unknown name is reported at the use, with the names that would be valid.
 const ModelDecl* require_model(Family family, const ModelUse& use, Diagnostics& diagnostics);
 
 }  // namespace etd

@@ -127,7 +127,7 @@ class Table {
   std::string out_;
 };
 
-// Where on the path the largest contribution was made, and with what light.
+// Says where on the path the largest contribution was made, and with what light.
 struct Brightest {
   size_t vertex = 0;
   uint32_t light = kNoId;

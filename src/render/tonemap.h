@@ -1,4 +1,4 @@
-// From linear light of any range to what a screen can show.
+// Maps linear light of any range to what a screen can show.
 #pragma once
 
 #include <array>

@@ -22,7 +22,7 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  // With the thread that calls run(), so at least one.
+  // Counts the thread that calls run(), too, so at least one.
   int count() const { return static_cast<int>(threads_.size()) + 1; }
   // Calls work() on each of them at once and waits for all. The first exception passes through.
   void run(const std::function<void()>& work);

@@ -1,4 +1,4 @@
-// Where the random numbers of a path come from. A number is a pure function of (seed, replicate, stream, index,
+// The random numbers of a path come from samplers. A number is a pure function of (seed, replicate, stream, index,
 // dimension): any sample can be drawn alone, in any order, on any thread. A stream is a pixel or a light path.
 #pragma once
 
@@ -23,7 +23,7 @@ class Sampler {
   // Uniform in [0, 1). Each call of get_1d and get_2d uses one (padded) dimension.
   float get_1d();
   Vec2 get_2d();
-  // As get_1d, with all the bits of a double: for choosing one of many things.
+  // Does as get_1d, with all the bits of a double: for choosing one of many things.
   double get_choice();
   // Well distributed in x and y together, z apart.
   Vec3 get_3d() {

@@ -160,7 +160,7 @@ class GeometryCompiler {
     }
   }
 
-  // Of what moves: at some moments.
+  // What moves is bounded at some moments.
   static Bounds3 instance_bounds(const TransformPath& path, const Bounds3& local) {
     Bounds3 b;
     const int moments = path.moves() ? kMoments : 1;

@@ -23,7 +23,7 @@ class AreaLightCompiler {
   void add_quadric(const ModelUse& use, uint32_t quadric, bool invisible);
 
  private:
-  // Without "scale" and "power".
+  // Leaves out "scale" and "power".
   AreaEmission emission(const ModelUse& use, bool invisible);
 
   std::filesystem::path folder_;

@@ -9,7 +9,7 @@ namespace etd {
 
 namespace {
 
-// Where an object is: local is its part behind the last transform that moves.
+// Says where an object is: local is its part behind the last transform that moves.
 struct Place {
   TransformPath path;  // to the world; moves, or is empty
   Transform local;
@@ -58,7 +58,7 @@ class Placer {
   }
 
  private:
-  // Of an object whose parts have been asked.
+  // The parts of the object have been asked before.
   bool emits(const ObjectDesc& object) const {
     const auto child_emits = [&](const InstanceDesc& i) { return emits_[static_cast<size_t>(i.object)]; };
     return std::any_of(object.shapes.begin(), object.shapes.end(),

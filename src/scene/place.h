@@ -1,4 +1,4 @@
-// Where the shapes of a description end up: in the world, or in groups that rays meet in a space of their own.
+// Says where the shapes of a description end up: in the world, or in groups that rays meet in a space of their own.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Where the lights that are no surfaces end up: those of the world, and those of objects once for each instance.
+// Says where the lights that are no surfaces end up: those of the world, and those of objects once for each instance.
 #pragma once
 
 #include <vector>

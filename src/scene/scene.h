@@ -79,7 +79,7 @@ class Scene {
     if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];
     return hit.on_quadric() ? quadric_bindings[hit.primitive] : mesh_bindings[hit.geometry];
   }
-  // Of the object and the material, as SceneNames lists them, counted from 1.
+  // Returns the ids of the object and the material, as SceneNames lists them, counted from 1.
   SurfaceIds ids_of(const Hit& hit) const {
     const SurfaceBinding& binding = binding_of(hit);
     uint32_t object = binding.object;
@@ -113,7 +113,7 @@ class Scene {
   SceneNames names;
 
  private:
-  // Where textures are looked up at a point, without a footprint.
+  // Returns where textures are looked up at a point, without a footprint.
   static TexCoord point_coord(const SurfacePoint& s) { return {s.uv, s.p, s.ng}; }
   // The same with the footprint of a pixel.
   TexCoord tex_coord(const SurfacePoint& s) const;

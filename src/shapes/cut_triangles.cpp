@@ -25,7 +25,7 @@ using Edge = std::pair<Place, Place>;
 
 Place place(Point3d p) { return {p.x, p.y, p.z}; }
 
-// By its ends, in either direction: neighbours need not share vertices.
+// An edge is known by its ends, in either direction: neighbours need not share vertices.
 Edge edge_of(Point3d a, Point3d b) {
   const Place pa = place(a), pb = place(b);
   return pa < pb ? Edge{pa, pb} : Edge{pb, pa};

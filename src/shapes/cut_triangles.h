@@ -17,7 +17,7 @@ inline constexpr double kLongestEdge = 256;
 // the viewer. Those that the viewer sees edge on are not counted.
 bool has_coarse_triangles(const Mesh& mesh, Point3d viewer, double ratio = kLongestEdge);
 
-// Of one triangle.
+// Judges one triangle.
 bool is_coarse_triangle(Point3d a, Point3d b, Point3d c, Point3d viewer, double ratio = kLongestEdge);
 
 // Cuts triangles, and their neighbours where these share an edge that is cut, until none is too long, or those that are

@@ -21,7 +21,7 @@ struct PatchData {
   std::vector<std::array<uint32_t, 4>> patches;
 };
 
-// Of checked uses; nothing when there are problems, which are reported.
+// Both take checked uses; nothing comes back when there are problems, which are reported.
 std::optional<MeshData> make_trianglemesh(const ParamReader& p);
 std::optional<PatchData> make_bilinearmesh(const ParamReader& p);
 // The same surface as two triangles for each patch, if all are parallelograms with texture coordinates to match and one

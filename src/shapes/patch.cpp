@@ -24,7 +24,7 @@ struct Patch {
   }
   Vec3d du(double v) const { return (p[1] - p[0]) * (1 - v) + (p[3] - p[2]) * v; }
   Vec3d dv(double u) const { return (p[2] - p[0]) * (1 - u) + (p[3] - p[1]) * u; }
-  // Of the surface per area of (u, v).
+  // Returns the area of the surface per area of (u, v).
   double stretch(double u, double v) const { return length(cross(du(v), dv(u))); }
   // Unit normal; at a corner that two edges share with no angle between them, that of the middle.
   Vec3d normal(double u, double v) const {

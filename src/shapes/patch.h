@@ -42,7 +42,7 @@ SurfacePoint patch_point(const PatchMesh& mesh, uint32_t patch, float u, float v
 
 Bounds3 patch_bounds(const PatchMesh& mesh, uint32_t patch);
 
-// By quadrature; relative error 1e-3 for patches that are not folded.
+// Computes the area by quadrature, with a relative error of 1e-3 for patches that are not folded.
 float patch_area(const PatchMesh& mesh, uint32_t patch);
 
 // A point with a density that is nearly uniform per area: bilinear between the corners' shares of area in (u, v).

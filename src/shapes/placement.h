@@ -1,5 +1,5 @@
-// Where an object is in the world at one time: the map from its own space to the world and back, and what a point of
-// it is there.
+// Says where an object is in the world at one time: the map from its own space to the world and back, and what a point
+// of it is there.
 #pragma once
 
 #include "core/affine.h"
@@ -10,8 +10,8 @@ namespace etd {
 
 struct Placement {
   Affine to_world, to_object;
-  // Where it moves: rays then meet it under a map that Embree has interpolated in float, around a pivot at most so far
-  // (in the world) from the origin of its space.
+  // Where the object moves, rays meet it under a map that Embree has interpolated in float, around a pivot at most so
+  // far (in the world) from the origin of its space.
   bool moves = false;
   float pivot = 0;
 };

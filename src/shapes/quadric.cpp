@@ -32,8 +32,8 @@ bool is_inside(const Quadric& quadric, Vec3d q) {
   return std::min(phi - part.phi_max, beyond) * r <= slack;
 }
 
-// Around the part under the map with these columns: the half extent along an axis is the norm of that row of the map,
-// over the columns that are round.
+// Makes the box around the part under the map with these columns: the half extent along an axis is the norm of that row
+// of the map, over the columns that are round.
 Bounds3 box_around(const QuadricPart& part, Vec3d x, Vec3d y, Vec3d z, Vec3d t) {
   const bool sphere = part.kind == Kind::kSphere, cylinder = part.kind == Kind::kCylinder;
   const double lo = cylinder ? part.lo : 0.0, hi = cylinder ? part.hi : 0.0;
@@ -82,7 +82,7 @@ Vec3d away_from_edges(const Quadric& quadric, Vec3d q) {
   return kept == phi ? q : Vec3d{r * std::cos(kept), r * std::sin(kept), q.z};
 }
 
-// Of a whole ellipsoid.
+// Returns the area of a whole ellipsoid.
 double ellipsoid_area(const Affine3d& m) {
   // Semi-axes a >= b >= c are the singular values of the linear part: eigenvalues of its Gram matrix G by the
   // trigonometric solution (Smith 1961), c from the determinant, which keeps it exact for flat ellipsoids.

@@ -28,8 +28,8 @@ struct QuadricPart {
   float area() const;  // in the unit shape
 };
 
-// In double, and with hits given from a point near the origin of the space in which rays meet it: on a sphere as large
-// as the Earth, whose surface is all that the scene has of it, floats are half a metre apart.
+// Quadrics are kept in double, and with hits given from a point near the origin of the space in which rays meet it: on
+// a sphere as large as the Earth, whose surface is all that the scene has of it, floats are half a metre apart.
 struct Quadric {
   Affine3d to_world;     // from the unit shape to the space in which rays meet it
   Affine3d to_object;    // its inverse

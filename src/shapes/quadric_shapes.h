@@ -16,7 +16,7 @@ const ModelDecl& sphere_decl();
 const ModelDecl& cylinder_decl();
 const ModelDecl& disk_decl();
 
-// Of a checked use of one of them; nothing, and reported, when nothing is left of the surface.
+// Makes the shape of a checked use of one of them; nothing, and reported, when nothing is left of the surface.
 std::optional<QuadricShape> make_quadric_shape(const ParamReader& p);
 
 }  // namespace etd

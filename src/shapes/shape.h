@@ -20,8 +20,8 @@ struct ShapeGeometry {
 };
 
 std::span<const ModelDecl* const> shape_models();
-// Of a checked use; problems are reported, and nothing comes back when there are any. `folder` is where relative file
-// names start.
+// Makes the shape of a checked use; problems are reported, and nothing comes back when there are any. `folder` is where
+// relative file names start.
 std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder,
                                         Diagnostics& diagnostics);
 

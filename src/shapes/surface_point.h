@@ -10,7 +10,7 @@ struct SurfacePoint {
   float p_error = 0;  // how far along ng a ray origin must move to be safely off the surface; same units as p
   Vec3 ng, ns;        // unit geometric and shading normal, ng on the side of ns
   Vec2 uv;
-  // Along growing u and v, not normalised; zero where the parametrisation has none (poles, zero area).
+  // These are along growing u and v, not normalised; zero where the parametrisation has none (poles, zero area).
   Vec3 dpdu, dpdv;
   Vec2 parameters;  // u and v of a bilinear patch, which its uv need not be
 };

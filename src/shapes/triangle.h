@@ -17,7 +17,7 @@ SurfacePoint triangle_point(const Mesh& mesh, uint32_t triangle, float b1, float
 // The point alone, and where the barycentrics put it.
 Point3 triangle_position(const Mesh& mesh, uint32_t triangle, float b1, float b2, float time = 0);
 
-// Of a mesh that does not deform, like what follows.
+// The mesh does not deform, here and in what follows.
 float triangle_area(const Mesh& mesh, uint32_t triangle);
 
 // A uniform point: density 1 / triangle_area per area.

@@ -19,7 +19,7 @@ struct Matrix {
     const Matrix t = b.transposed();
     return Matrix{{t * rows[0], t * rows[1], t * rows[2]}};
   }
-  // Of a regular matrix, by cross products.
+  // Inverts a regular matrix by cross products.
   Matrix inverse() const {
     const Vec3d a = cross(rows[1], rows[2]), b = cross(rows[2], rows[0]), c = cross(rows[0], rows[1]);
     const double s = 1.0 / dot(rows[0], a);

@@ -86,7 +86,7 @@ class ImageFiltering {
     return {clamp(d.x * width(0), -kMost, kMost), clamp(d.y * height(0), -kMost, kMost)};
   }
 
-  // Between the two levels on which twice the footprint's larger side is about a texel.
+  // Interpolates between the two levels on which twice the footprint's larger side is about a texel.
   Spectrum trilinear() const {
     const Vec2 dx = in_texels(at_.dx), dy = in_texels(at_.dy);
     const float side = std::max(std::max(std::abs(dx.x), std::abs(dx.y)), std::max(std::abs(dy.x), std::abs(dy.y)));
@@ -141,7 +141,7 @@ class ImageFiltering {
     float weights = 0;
     const int y1 = static_cast<int>(std::floor(y0 + half_height));
     for (int y = static_cast<int>(std::ceil(y0 - half_height)); y <= y1; ++y) {
-      // Where the row is inside.
+      // The row is inside on both sides of the middle up to half_width.
       const float dy = static_cast<float>(y) - y0, middle = -0.5f * b * dy / a;
       const float half_width = safe_sqrt(f / a * (1.0f - dy * dy / a));
       const int x1 = static_cast<int>(std::floor(x0 + middle + half_width));

@@ -1,4 +1,4 @@
-// From a place on a surface to the coordinates of a texture, and to how far they change over a pixel: two of them for
+// Maps a place on a surface to the coordinates of a texture, and to how far they change over a pixel: two of them for
 // images and patterns on a surface, three for solid textures.
 #pragma once
 

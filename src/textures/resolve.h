@@ -34,8 +34,8 @@ class TextureBuilder {
   // Call once when the world's origin is known: its coordinates are those of the scene file minus `origin`.
   void recentre(Vec3d origin);
 
-  // For the texture that is being built: whether it is a float texture, where it was defined, and that as a space of
-  // the table (an error if the transform is singular).
+  // These describe the texture that is being built: whether it is a float texture, where it was defined, and that as a
+  // space of the table (an error if the transform is singular).
   bool is_float() const { return is_float_; }
   const Transform& to_world() const { return to_world_; }
   int32_t space(const ParamReader& params);

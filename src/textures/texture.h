@@ -12,8 +12,8 @@
 
 namespace etd {
 
-// Where on a surface a texture is looked up, and over how much of it: the footprint is the parallelogram that one step
-// of a pixel along each axis of the film covers. Zero is a point.
+// Says where on a surface a texture is looked up, and over how much of it: the footprint is the parallelogram that one
+// step of a pixel along each axis of the film covers. Zero is a point.
 struct TexCoord {
   Vec2 uv;
   Point3 p = {};                  // in the recentred world

@@ -26,7 +26,7 @@ class TextureImage {
     return filtered(texels, at);
   }
 
-  // In memory, of which the finest level may be shared.
+  // These levels are in memory, and the finest may be shared.
   const std::shared_ptr<const Image>& finest() const { return finest_; }
   const std::vector<Image>& coarser() const { return coarser_; }
 

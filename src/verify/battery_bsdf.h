@@ -31,7 +31,7 @@ struct ScatterModel {
   float grazing_cos(Vec3 w) const { return std::min(std::abs(w.z), std::abs(dot(w, ns))); }
 };
 
-// Of a closure or of a Bsdf.
+// Makes the model of a closure or of a Bsdf.
 template <class Closure>
 ScatterModel scatter_model(std::string name, const Closure& c, BsdfTraits traits, bool lossless = false,
                            float min_cos = 0.0f) {

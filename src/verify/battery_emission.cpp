@@ -49,7 +49,8 @@ void check_samples(const LightModel& m, uint64_t seed, Worst& finite, Worst& sou
       for (int lane = 0; lane < 3; ++lane) sound.add_relative(emitted[lane], s->radiance[lane], where);
     }
     if (m.infinite) {
-      // Before the bounding sphere, in none of which light may be missing, unless it says that it is not.
+      // Rays start before the bounding sphere, in no part of which light may be missing, unless they say that they do
+      // not.
       if (!s->starts_within)
         sound.add(std::max(0.0f, dot(s->ray.o - kTestScene.center, s->ray.d) + kTestScene.radius), where);
     } else {
@@ -61,7 +62,8 @@ void check_samples(const LightModel& m, uint64_t seed, Worst& finite, Worst& sou
   }
 }
 
-// From a few positions: around the normal there, where one is, so that the horizon is an edge of cells.
+// Checks directions from a few positions: around the normal there, where one is, so that the horizon is an edge of
+// cells.
 void check_directions(const LightModel& m, size_t samples, uint64_t seed, WorstP& chi_square, WorstP& mass) {
   HashStream positions(seed);
   const int count = m.on_surface ? 3 : 1;
@@ -166,8 +168,8 @@ void check_positions_on_surface(const LightModel& m, const LightRays& rays, size
   compare(sampled, expected, "surface", out);
 }
 
-// Of one direction: where its rays cross the plane through the scene's middle, against points spread evenly there. A
-// portal is not looked at from so far aside that hardly any of these would see it.
+// Checks for one direction where its rays cross the plane through the scene's middle, against points spread evenly
+// there. A portal is not looked at from so far aside that hardly any of these would see it.
 void check_positions_across(const LightModel& m, size_t samples, uint64_t seed, WorstP& out) {
   HashStream numbers(seed);
   for (int i = 0; i < 3; ++i) {
@@ -282,7 +284,8 @@ void check_flux(const LightModel& m, const LightRays& rays, size_t samples, uint
     add_line(emitted, s ? s->ray.o : Point3{}, s ? s->ray.d : Vec3{},
              counts ? static_cast<double>(mean_value(weight)) : 0.0);
   }
-  // Of lights without a power of their own: through the disk across the bounding sphere, where pi m^2 are counted.
+  // Lights without a power of their own tell that through a disk of pi m^2; it is scaled to the disk across the
+  // bounding sphere.
   const double scale = m.infinite && !m.through_portal ? sqr(static_cast<double>(kTestScene.radius)) : 1.0;
   for (int lane = 0; lane < 3; ++lane) {
     RunningStats told;

@@ -99,7 +99,7 @@ std::vector<CheckResult> check_filter(const FilterModel& f, const BatteryOptions
   double smallest_p = 1, worst_z = 0;
   size_t worst = 0;
   for (size_t i = 0; i < sum.size(); ++i) {
-    // Of a count of weighted samples, with a floor for cells that expect less than one.
+    // The spread is that of a count of weighted samples, with a floor for cells that expect less than one.
     const double expected = cells.expected[i];
     const double spread = std::max(squares[i] / n, std::abs(expected)) - sqr(sum[i] / n);
     const double z = (sum[i] / n - expected) / std::sqrt(std::max(spread, 0.0) / n + 9.0 / (n * n) + sqr(kRounding));

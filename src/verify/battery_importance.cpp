@@ -74,7 +74,8 @@ void check_rays_back(const CameraModel& m, uint64_t seed, WrongShare& film, Wron
     CameraSample s = next_sample(numbers);
     if (i % 2 == 0) s.time = 0.5f;  // when the axis is known
     const Ray ray = m.generate_ray(s);
-    // Within a margin: where a pixel is seen nearly edge on, rounding carries film points beyond the edge.
+    // The film is looked up within a margin: where a pixel is seen nearly edge on, rounding carries film points beyond
+    // the edge.
     const auto found = m.we(ray, 1);
     const auto where = [&] { return text(s); };
     film.add(found.has_value() == m.blurs_alike, where);
@@ -117,8 +118,8 @@ void check_ways_back(const CameraModel& m, uint64_t seed, WrongShare& same) {
       same.add(differ(double{c->weight} * double{c->pdf}, position * direction / cosine, 1e-4), where);
     else
       same.add(differ(c->weight, parallel ? position / cosine : direction / d2, 1e-4), where);
-    // From the very point of the lens: p + wi distance would be beside it by the rounding of p, and a camera at the
-    // origin has none.
+    // The ray back starts at the very point of the lens: p + wi distance would be beside it by the rounding of p, and a
+    // camera at the origin has none.
     const auto back = m.we(Ray{ray.o, -c->wi, kInfinity, ray.time}, 2);
     same.add(!back && !m.blurs_alike, where);
     if (back) same.add(differ(back->we(), c->importance.we(), 1e-3), where);

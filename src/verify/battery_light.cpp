@@ -17,7 +17,7 @@ constexpr double kPiD = 3.14159265358979323846;
 
 std::string describe(Point3 p) { return fmt::format("seen from ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); }
 
-// In front of, behind, beside, near, far from and (for spheres) within the examples.
+// The points are in front of, behind, beside, near, far from and (for spheres) within the examples.
 const std::vector<Point3>& test_points() {
   static const std::vector<Point3> points{{0.2f, 0.1f, 2.0f},   {1.5f, 0.5f, 0.6f},  {-0.7f, -1.0f, -1.2f},
                                           {0.1f, 0.05f, 0.25f}, {-6.0f, 3.0f, 5.0f}, {0.0f, -0.2f, -0.3f}};
@@ -155,7 +155,7 @@ void check_delta(const LightModel& m, size_t samples, uint64_t seed, Worst& fini
   }
 }
 
-// With the checks of emission.
+// Adds the checks of emission and judges all.
 std::vector<CheckResult> judged(std::vector<CheckResult> results, const LightModel& m,
                                 const LightBatteryOptions& options) {
   for (CheckResult& r : check_emission(m, options)) results.push_back(std::move(r));

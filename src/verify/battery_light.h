@@ -12,7 +12,7 @@
 
 namespace etd {
 
-// Where rays of infinite lights start in the battery: a scene's bounding sphere, around the unit ball.
+// Rays of infinite lights start in the battery at this bounding sphere of a scene, around the unit ball.
 inline constexpr BoundingSphere kTestScene{{0.1f, -0.2f, 0.3f}, 1.5f};
 // With two smaller disks inside, which are not in its middle.
 inline EmissionDisks test_disks() { return EmissionDisks(kTestScene, {{0.5f, 0.1f, 0.2f}, 0.15f}); }

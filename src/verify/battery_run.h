@@ -39,7 +39,8 @@ std::string battery_json(const BatteryRun& run);
 // Writes what was sampled, what was expected and the difference in standard deviations (red: more, blue: fewer, full at
 // 5), one above the other, as PNG. Returns what went wrong, or an empty string.
 std::string write_check_map(const std::filesystem::path& path, const CheckMap& map);
-// Of all checks that have maps, or of those that failed. Returns the files; `problem` is what went wrong.
+// Writes the maps of all checks that have them, or of those that failed. Returns the files; `problem` is what went
+// wrong.
 std::vector<std::filesystem::path> write_check_pictures(const BatteryRun& run, const std::filesystem::path& folder,
                                                         bool all, std::string& problem);
 

@@ -75,7 +75,7 @@ void check_uniform(const SamplerModel& model, size_t streams, uint64_t seed, Wor
   }
 }
 
-// Where a number comes from.
+// Says where a number comes from.
 struct Origin {
   uint32_t pixel, replicate, index, dimension;
   std::string text() const {

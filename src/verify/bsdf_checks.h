@@ -24,7 +24,7 @@ void check_delta(const ScatterModel& model, Results& out);
 // Samples against the density and the integrals of eval_cos over the sphere; energy.
 void check_histograms(const ScatterModel& model, const BsdfBatteryOptions& options, Results& out);
 
-// Of stochastic models instead of the three above: weighted samples against averaged values, reciprocity, energy.
+// Checks stochastic models, instead of the three above: weighted samples against averaged values, reciprocity, energy.
 void check_stochastic(const ScatterModel& model, const BsdfBatteryOptions& options, Results& out);
 
 // The delta lobes that wo scatters into, each with the share of samples that took it. They are found by walking u.z

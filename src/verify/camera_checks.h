@@ -17,7 +17,7 @@ inline CameraSample next_sample(HashStream& numbers) {
   return {{film.x * CameraModel::kFilmWidth, film.y * CameraModel::kFilmHeight}, lens, numbers.next_float()};
 }
 
-// Where a flat film is seen so nearly edge on that rounding shows, and that few samples carry its light.
+// Tells where a flat film is seen so nearly edge on that rounding shows, and that few samples carry its light.
 inline bool is_sideways(const CameraModel& m, Vec3 d) {
   return m.spread == FilmSpread::kFlat && dot(d, m.axis) < 0.05f;
 }

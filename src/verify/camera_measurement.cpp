@@ -27,15 +27,16 @@ class Surroundings {
     cap_ = std::min(2.0f, 1.3f * (1.0f - widest) + 1e-4f);
   }
 
-  // At the unit vector n from the centre, towards a ray's start. Smooth and positive, with no symmetry over the sphere;
-  // different in the middle of lenses and at their rims, whose points are known by origins or by directions.
+  // Returns the radiance at the unit vector n from the centre, towards a ray's start. It is smooth and positive, with
+  // no symmetry over the sphere; different in the middle of lenses and at their rims, whose points are known by origins
+  // or by directions.
   double radiance(Vec3 n, const Ray& ray) const {
     const double x = n.x, y = n.y, z = n.z;
     const Vec3 off = ray.o - centre_, sideways = cross(ray.d, frame_.z);
     const double lens = std::exp(-20.0f * dot(off, off)) + std::exp(-120.0f * dot(sideways, sideways));
     return (2.0 + 0.7 * x - 0.5 * y + 0.4 * z + 0.6 * x * y - 0.3 * y * z) * (0.2 + lens);
   }
-  // Where the ray, which starts within, meets the sphere.
+  // Returns where the ray, which starts within, meets the sphere.
   Vec3 at(const Ray& ray) const {
     const Vec3 way = ray.o - centre_;
     const float b = dot(way, ray.d);

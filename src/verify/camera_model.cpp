@@ -28,7 +28,7 @@ Param text(const std::string& name, const std::string& value) {
   return p;
 }
 
-// Of the use, or of the model's default.
+// Returns the number of the use, or the model's default.
 double number_of(const ModelUse& use, const std::string& name) {
   if (const Param* p = use.find(name)) return p->numbers[0];
   for (const ParamDecl& d : find_model(Family::kCamera, use.model)->params)
@@ -45,7 +45,7 @@ FilmSpread spread_of(const CameraSetting& setting) {
   return mapping && mapping->strings[0] == "equirectangular" ? FilmSpread::kLatLong : FilmSpread::kEqualArea;
 }
 
-// Where all rays start, in camera space: a little more than what many of them need.
+// Returns where all rays start, in camera space: a little more than what many of them need.
 Window window_of_origins(const Camera& camera, const TransformPath& to_world, Vec3d world_origin) {
   Vec3d low{1e9, 1e9, 0}, high{-1e9, -1e9, 0};
   HashStream numbers(9);

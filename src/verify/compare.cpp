@@ -13,7 +13,7 @@ namespace {
 constexpr double kRounding = 1e-6;
 // The verdict's level is divided evenly among the whole image, the blocks and the histograms.
 constexpr double kGroups = 3;
-// Of p-values in the histogram, where the number below is counted.
+// The p-values of the histogram that are below each of these are counted.
 constexpr double kThresholds[] = {0.001, 0.01, 0.05, 0.1, 0.2, 0.4};
 
 struct Moment {

@@ -40,7 +40,7 @@ std::string region_text(const std::string& what, const RegionTest& t) {
                      t.result.p_value, t.corrected);
 }
 
-// By falling evidence, equal evidence by the size of the statistic.
+// Sorts blocks by falling evidence, equal evidence by the size of the statistic.
 std::vector<RegionTest> strongest_blocks(const Verdict& v, size_t count) {
   std::vector<RegionTest> blocks = v.blocks;
   std::sort(blocks.begin(), blocks.end(), [](const RegionTest& a, const RegionTest& b) {

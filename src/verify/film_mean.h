@@ -26,9 +26,9 @@ std::optional<Quantity> parse_quantity(const std::string& text);
 // The mean over the samples of `sums`.
 double value(const PixelSums& sums, const Quantity& quantity);
 
-// For each replicate the mean over pixels of a region (equal weight for each), times `factor`.
+// Takes for each replicate the mean over pixels of a region (equal weight for each), times `factor`.
 RunningStats region_mean(const Film& film, const PixelBounds& region, const Quantity& quantity, double factor = 1.0);
-// Over all pixels of the film.
+// Takes the mean over all pixels of the film.
 RunningStats image_mean(const Film& film, const Quantity& quantity = {});
 
 // How many samples of a region carry its luminance: (sum x)^2 / sum x^2. Few when it rests on rare bright ones.

@@ -54,7 +54,7 @@ class RunningStats {
   void add(double x);
   uint64_t count() const { return count_; }
   double mean() const { return mean_; }
-  // Of the numbers, unbiased; 0 for fewer than two.
+  // Returns the unbiased variance of the numbers; 0 for fewer than two.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
   double variance_of_mean() const { return count_ > 0 ? variance() / static_cast<double>(count_) : 0.0; }
   MeanEstimate estimate() const { return {mean_, variance_of_mean(), count_}; }

@@ -59,7 +59,7 @@ class WorstP {
     result_.map = nullptr;
     return true;
   }
-  // Of the worst so far.
+  // Keeps the map of the worst so far.
   void set_map(CheckMap map) { result_.map = std::make_shared<const CheckMap>(std::move(map)); }
   // Whether anything was compared.
   bool any() const { return tests_ > 0; }

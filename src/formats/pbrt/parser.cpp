@@ -29,7 +29,7 @@ std::vector<std::string_view> directive_names() {
   return names;
 }
 
-// Of words that do not begin with a letter there is none: most of what is passed over after an error are numbers.
+// Words that do not begin with a letter have none: most of what is passed over after an error are numbers.
 std::string_view nearest_directive(std::string_view word) {
   static const std::vector<std::string_view> names = directive_names();
   const char first = static_cast<char>(word.empty() ? 0 : word[0] | 0x20);

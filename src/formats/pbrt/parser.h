@@ -39,7 +39,7 @@ class Parser {
   // The same, with colours of the current ColorSpace.
   std::optional<ModelUse> model_arguments(const Token& directive, std::string_view what, ColorRole role);
 
-  // Of the current ColorSpace.
+  // Takes colours to be in the current ColorSpace.
   void convert_colors(std::vector<Param>& params, ColorRole role);
 
   // The current transform for something placed in the world; reports singular ones and returns nothing.
@@ -60,7 +60,7 @@ class Parser {
   SpectrumFiles spectra;
   Names names;
   GraphicsState state;
-  // Of what `Attribute` gave them to, by name.
+  // These are what `Attribute` gave, by what it gave them to and by name.
   ScopedMap<std::pair<AttributeTarget, std::string>, Param> defaults;
   std::deque<Block> blocks;
   ScopedMap<std::string, TransformPair> coordinate_systems;
@@ -91,7 +91,7 @@ class Parser {
 };
 
 struct Directive {
-  // Where it may stand, relative to WorldBegin.
+  // Says where the directive may stand, relative to WorldBegin.
   enum class Where : uint8_t { kAnywhere, kOptions, kWorld };
   std::string_view name;
   Where where;

@@ -46,7 +46,7 @@ class Tokenizer {
 std::optional<double> parse_number(std::string_view text);
 // A 32-bit integer; none when the text is anything else or out of range.
 std::optional<int32_t> parse_integer(std::string_view text);
-// For a text that is no number: what a user may have meant by it; may be empty.
+// Returns what a user may have meant by a text that is no number; may be empty.
 std::string number_hint(std::string_view text);
 
 }  // namespace etd::pbrt
