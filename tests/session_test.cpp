@@ -59,6 +59,40 @@ TEST(Session, BitsDoNotDependOnThreadsTilesOrCrop) {
   }
 }
 
+TEST(Session, ReplicatesAreThoseOfTheWholeImageWhereverTheyAreRendered) {
+  for (const char* integrator : {"path", "light"}) {
+    RenderOverrides o;
+    o.spp = 40, o.replicates = 8, o.seed = 5, o.integrator = integrator;
+    const Film whole = render_text(kScene, ".", o);
+    for (const auto& [first, count] : {std::pair(0u, 3u), std::pair(3u, 4u), std::pair(7u, 1u)}) {
+      o.replicate_range = {first, count};
+      const Film part = render_text(kScene, ".", o);
+      ASSERT_EQ(part.settings().replicates, count);
+      EXPECT_EQ(part.total(0, 0).count, 5.0 * count);
+      for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 30; ++x)
+          for (uint32_t r = 0; r < count; ++r) {
+            const PixelSums a = whole.sums(x, y, first + r), b = part.sums(x, y, r);
+            ASSERT_EQ(a.emission, b.emission) << integrator << ' ' << x << ' ' << y;
+            ASSERT_EQ(a.direct, b.direct) << integrator << ' ' << x << ' ' << y;
+            ASSERT_EQ(a.indirect, b.indirect) << integrator << ' ' << x << ' ' << y;
+            ASSERT_EQ(a.count, b.count);
+          }
+      // A sample keeps its name.
+      const uint32_t strongest = part.strongest(12, 9).number;
+      if (strongest > 0) {
+        EXPECT_GE(strongest % 8, first);
+        EXPECT_LT(strongest % 8, first + count);
+      }
+    }
+  }
+  Diagnostics diagnostics;
+  RenderOverrides o;
+  o.replicates = 8, o.replicate_range = {6, 3};
+  EXPECT_FALSE(prepare_render(read_pbrt_text(kScene, "test", ".", diagnostics), o, diagnostics));
+  EXPECT_NE(diagnostics.format_all().find("there are no replicates 6 to 8: the image has 8"), std::string::npos);
+}
+
 TEST(Session, EverythingWrongIsReportedTogether) {
   Diagnostics diagnostics;
   const std::string text = std::string(kScene) + "Shape \"sphere\" \"float radios\" 1\n";
