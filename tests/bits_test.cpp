@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render_helper.h"
+#include "same_bits.h"
 
 namespace etd {
 namespace {
@@ -22,29 +23,6 @@ RenderOverrides overrides(int threads, int tile_size, uint32_t replicates) {
 }
 
 Film render_bits(const RenderOverrides& o) { return render_scene(source_path(kScene), o); }
-
-// All sums of all replicates, where both films have pixels.
-void expect_same_bits(const Film& a, const Film& b) {
-  const PixelBounds &ca = a.settings().crop, &cb = b.settings().crop;
-  ASSERT_EQ(a.settings().replicates, b.settings().replicates);
-  for (int y = std::max(ca.y0, cb.y0); y < std::min(ca.y1, cb.y1); ++y)
-    for (int x = std::max(ca.x0, cb.x0); x < std::min(ca.x1, cb.x1); ++x)
-      for (uint32_t r = 0; r < a.settings().replicates; ++r) {
-        const PixelSums p = a.sums(x, y, r), q = b.sums(x, y, r);
-        const auto where = [&] { return fmt::format("pixel {},{} replicate {}", x, y, r); };
-        ASSERT_GT(p.count, 0) << where();
-        ASSERT_EQ(p.count, q.count) << where();
-        ASSERT_EQ(p.rays, q.rays) << where();
-        ASSERT_EQ(p.emission, q.emission) << where();
-        ASSERT_EQ(p.direct, q.direct) << where();
-        ASSERT_EQ(p.indirect, q.indirect) << where();
-        ASSERT_EQ(p.squares, q.squares) << where();
-        ASSERT_EQ(p.albedo, q.albedo) << where();
-        ASSERT_EQ(p.normal, q.normal) << where();
-        ASSERT_EQ(p.depth, q.depth) << where();
-        ASSERT_EQ(p.coverage, q.coverage) << where();
-      }
-}
 
 class Bits : public testing::TestWithParam<uint32_t> {};  // of the number of replicates
 
@@ -91,8 +69,8 @@ TEST(BitsOfSeeds, DifferWithTheSeedAndWithTheReplicate) {
   int same_seed = 0, same_replicate = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      same_seed += a.sums(x, y, 0).squares == b.sums(x, y, 0).squares && a.sums(x, y, 0).squares[0] > 0;
-      same_replicate += a.sums(x, y, 0).squares == a.sums(x, y, 3).squares && a.sums(x, y, 0).squares[0] > 0;
+      same_seed += a.sums(x, y, 0).direct == b.sums(x, y, 0).direct && a.sums(x, y, 0).direct[0] > 0;
+      same_replicate += a.sums(x, y, 0).direct == a.sums(x, y, 3).direct && a.sums(x, y, 0).direct[0] > 0;
     }
   // Pixels that see nothing but the light are the same in all.
   EXPECT_LT(same_seed, kWidth * kHeight / 20);

@@ -128,7 +128,7 @@ TEST(PixelIds, TakeSixteenBytesOfAPixelWhereTheyAreKept) {
   film.ids = true;
   EXPECT_EQ(Film::bytes_for(film), without + 1600);
   film.alpha = true;
-  EXPECT_EQ(Film::bytes_for(film), without + 1600 + 100 * 2 * 4 * sizeof(double));
+  EXPECT_EQ(Film::bytes_for(film), without + 1600 + 100 * 2 * 7 * sizeof(double));
 }
 
 // Halves hold integers up to 2048 alone.

@@ -35,7 +35,7 @@ TEST(StrongestSamples, FirefliesStandBeforeBrightNeighbours) {
   EXPECT_EQ(all[2].id, (SampleId{3, 0, 3}));
   EXPECT_FLOAT_EQ(all[0].luminance, 60);
   EXPECT_NEAR(all[0].share, 60.0 / 63, 1e-6);
-  EXPECT_NEAR(all[0].strength, 60 * 3600.0 / 3603, 1e-4);
+  EXPECT_NEAR(all[0].strength, 60 * 60.0 / 63, 1e-4);
   EXPECT_NEAR(all[1].strength, 25, 1e-4);
   ASSERT_EQ(strongest_samples(film, 1).size(), 1u);
   EXPECT_EQ(strongest_samples(film, 1)[0].id, all[0].id);

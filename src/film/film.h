@@ -7,6 +7,7 @@
 
 #include "core/bounds.h"
 #include "core/transform.h"
+#include "film/feature_store.h"
 #include "film/pixel_sample.h"
 #include "film/sensor.h"
 #include "film/splat_buffer.h"
@@ -58,13 +59,18 @@ class Film {
   // samples of the replicate: as many for each pixel as there were paths for each pixel of the full image. Different
   // rows may be folded concurrently.
   void fold_splats(int y, uint32_t replicate, uint64_t light_paths, uint64_t rays);
-  // What has been accumulated so far for a pixel and replicate.
+  // The light and the number of samples that have been accumulated so far for a pixel and replicate. Squares are kept
+  // where there are fewer than kReplicatesForSpread replicates, and 0 otherwise.
   PixelSums sums(int x, int y, uint32_t replicate) const;
-  // All replicates folded in their order.
+  // The same of all replicates, folded in their order.
+  PixelSums light(int x, int y) const;
+  // light() with the features of all replicates, and rays.
   PixelSums total(int x, int y) const;
+  // Those replicates alone whose numbers in the whole image are even (0) or odd (1), with their features.
+  PixelSums half(int x, int y, uint32_t parity) const;
   // Standard error of the pixel's mean R, G, B and Y: from the spread of the replicate means where four or more have
   // samples, otherwise from the second moments of the samples (conservative for low-discrepancy sampling); +inf where
-  // fewer than two samples were taken.
+  // too few samples or replicates know it.
   std::array<double, 4> standard_error(int x, int y) const;
 
   size_t bytes() const;
@@ -75,7 +81,10 @@ class Film {
   size_t offset(int x, int y, uint32_t replicate) const;
 
   FilmSettings settings_;
+  size_t channels_;           // doubles of a replicate of a pixel
   std::vector<double> sums_;  // [pixel][replicate][channel]
+  std::vector<double> rays_;  // by pixel
+  FeatureStore features_;
   std::vector<StrongestSample> strongest_;
   std::vector<PixelIds> ids_;          // empty without ids
   std::optional<SplatBuffer> splats_;  // [pixel][emission, direct, indirect][lane]

@@ -2,6 +2,15 @@
 
 namespace etd {
 
+namespace {
+
+void add_feature(double v, double& sum, double& squares) {
+  sum += v;
+  squares += v * v;
+}
+
+}  // namespace
+
 double PixelSums::add(const PixelSample& s) {
   const double w = s.weight;
   std::array<double, 4> radiance;
@@ -12,15 +21,15 @@ double PixelSums::add(const PixelSample& s) {
     if (s.alpha > 0) surface_emission[i] += e;
     direct[i] += d;
     indirect[i] += n;
-    albedo[i] += w * s.albedo[lane];
-    normal[i] += w * s.normal[lane];
+    add_feature(w * s.albedo[lane], albedo[i], albedo_squares[i]);
+    add_feature(w * s.normal[lane], normal[i], normal_squares[i]);
     position[i] += w * s.position[lane];
     radiance[i] = e + d + n;
   }
   radiance[3] = luminance(radiance[0], radiance[1], radiance[2]);
   for (size_t i = 0; i < 4; ++i) squares[i] += radiance[i] * radiance[i];
-  depth += w * s.depth;
-  coverage += w * s.coverage;
+  add_feature(w * s.depth, depth, depth_squares);
+  add_feature(w * s.coverage, coverage, coverage_squares);
   alpha += w * s.alpha;
   count += 1;
   rays += static_cast<double>(s.rays.total());
@@ -36,10 +45,14 @@ PixelSums& PixelSums::operator+=(const PixelSums& b) {
     albedo[i] += b.albedo[i];
     normal[i] += b.normal[i];
     position[i] += b.position[i];
+    albedo_squares[i] += b.albedo_squares[i];
+    normal_squares[i] += b.normal_squares[i];
   }
   for (size_t i = 0; i < 4; ++i) squares[i] += b.squares[i];
   depth += b.depth;
   coverage += b.coverage;
+  depth_squares += b.depth_squares;
+  coverage_squares += b.coverage_squares;
   alpha += b.alpha;
   count += b.count;
   rays += b.rays;

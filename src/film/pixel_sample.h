@@ -41,6 +41,8 @@ struct PixelSums {
   std::array<double, 4> squares{};  // of the samples' total R, G, B and luminance Y
   std::array<double, 3> albedo{}, normal{}, position{};
   double depth = 0, coverage = 0;
+  std::array<double, 3> albedo_squares{}, normal_squares{};  // and so on: sums of the squares of what samples add
+  double depth_squares = 0, coverage_squares = 0;
   std::array<double, 3> surface_emission{};  // the part of the emission that surfaces emit, not what is behind them all
   double alpha = 0;
   double count = 0, rays = 0;

@@ -17,10 +17,11 @@ std::vector<SampleStrength> strongest_samples(const Film& film, size_t count) {
     for (int x = crop.x0; x < crop.x1; ++x) {
       const StrongestSample& s = film.strongest(x, y);
       if (s.luminance == 0) continue;
-      const PixelSums sums = film.total(x, y);
+      const PixelSums sums = film.light(x, y);
       const double luminance = s.luminance, mean = sums.mean_radiance()[3];
       SampleStrength candidate{{x, y, s.number}, s.luminance, mean == 0 ? 0 : luminance / (sums.count * mean), 0};
-      candidate.strength = std::abs(luminance) * (luminance * luminance / sums.squares[3]);
+      // Where negative lobes of a filter leave hardly anything of the mean, its share means nothing.
+      candidate.strength = std::abs(luminance) * (mean == 0 ? 1.0 : std::min(1.0, std::abs(candidate.share)));
       found.push_back(candidate);
       std::push_heap(found.begin(), found.end(), stronger);
       if (found.size() <= count) continue;

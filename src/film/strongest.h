@@ -27,11 +27,11 @@ struct SampleStrength {
   SampleId id;
   float luminance = 0;
   double share = 0;     // of the pixel's mean luminance that this sample makes
-  double strength = 0;  // |Y| Y^2 / (sum of Y^2 over the pixel's samples)
+  double strength = 0;  // |Y| times that share, at most |Y|
 };
 
 // The strongest sample of each pixel, the strongest of all first and `count` at most; none that is black. Strength is
-// luminance times the share of the pixel's second moment: a firefly, which alone makes its pixel, stands before samples
+// luminance times its share of the pixel: a firefly, which alone makes its pixel, stands before samples
 // that are as bright as their neighbours, such as those of a lamp seen directly.
 std::vector<SampleStrength> strongest_samples(const Film& film, size_t count);
 

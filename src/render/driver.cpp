@@ -39,7 +39,7 @@ void count_samples(const Film& film, RenderResult& result) {
   double empty = 0, all = 0, fewest = HUGE_VAL, most = 0;
   for (int y = crop.y0; y < crop.y1; ++y)
     for (int x = crop.x0; x < crop.x1; ++x, ++all) {
-      const double count = film.total(x, y).count;
+      const double count = film.light(x, y).count;
       fewest = std::min(fewest, count);
       most = std::max(most, count);
       empty += count == 0 ? 1 : 0;

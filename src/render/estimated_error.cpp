@@ -21,7 +21,7 @@ double estimated_error(const Film& film, Workers& workers) {
   std::vector<RowSums> rows(static_cast<size_t>(crop.height()));
   for_each_item(workers, rows.size(), [&](size_t row) {
     const int y = crop.y0 + static_cast<int>(row);
-    for (int x = crop.x0; x < crop.x1; ++x) rows[row].luminance += film.total(x, y).mean_radiance()[3];
+    for (int x = crop.x0; x < crop.x1; ++x) rows[row].luminance += film.light(x, y).mean_radiance()[3];
   });
   double mean = 0;
   for (const RowSums& row : rows) mean += row.luminance / pixels;
@@ -30,7 +30,7 @@ double estimated_error(const Film& film, Workers& workers) {
     const int y = crop.y0 + static_cast<int>(row);
     for (int x = crop.x0; x < crop.x1; ++x) {
       const double variance = sqr(film.standard_error(x, y)[3]);
-      if (variance != 0) rows[row].error += variance / (sqr(film.total(x, y).mean_radiance()[3]) + floor);
+      if (variance != 0) rows[row].error += variance / (sqr(film.light(x, y).mean_radiance()[3]) + floor);
     }
   });
   double sum = 0;

@@ -57,12 +57,16 @@ RunningStats image_mean(const Film& film, const Quantity& quantity) {
 }
 
 double effective_samples(const Film& film, const PixelBounds& region) {
+  if (film.settings().replicates >= kReplicatesForSpread) {
+    const RunningStats mean = region_mean(film, region, {});
+    return mean.variance_of_mean() > 0.0 ? sqr(mean.mean()) / mean.variance_of_mean() : HUGE_VAL;
+  }
   double sum = 0, squares = 0;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) {
-      const PixelSums total = film.total(x, y);
-      sum += total.mean_radiance()[3] * total.count;
-      squares += total.squares[3];
+      const PixelSums light = film.light(x, y);
+      sum += light.mean_radiance()[3] * light.count;
+      squares += light.squares[3];
     }
   return squares > 0.0 ? sum * sum / squares : 0.0;
 }

@@ -31,7 +31,9 @@ RunningStats region_mean(const Film& film, const PixelBounds& region, const Quan
 // Takes the mean over all pixels of the film.
 RunningStats image_mean(const Film& film, const Quantity& quantity = {});
 
-// How many samples of a region carry its luminance: (sum x)^2 / sum x^2. Few when it rests on rare bright ones.
+// How many samples carry the light of a region; few when it rests on rare bright ones: (sum x)^2 / sum x^2, or what the
+// spread of four replicates or more tells of that. The mean of N samples whose squares outweigh that of the mean has
+// the variance E[x^2] / N.
 double effective_samples(const Film& film, const PixelBounds& region);
 
 }  // namespace etd

@@ -84,14 +84,6 @@ struct Weighing {
   std::vector<HistogramTest> histograms;
 };
 
-// How many samples carry the light of a region. Of splats no second moments are known, but the spread of the replicates
-// tells as much: N samples whose squares outweigh their mean have a mean with the variance E[x^2] / N.
-double carrying_samples(const Film& film, const PixelBounds& region) {
-  if (!film.settings().correlated) return effective_samples(film, region);
-  const RunningStats mean = region_mean(film, region, {});
-  return mean.variance_of_mean() > 0.0 ? sqr(mean.mean()) / mean.variance_of_mean() : HUGE_VAL;
-}
-
 double samples_in(const Film& film, const PixelBounds& r) {
   double n = 0;
   for (int y = r.y0; y < r.y1; ++y)
@@ -108,8 +100,8 @@ Weighing weigh(const Film& reference, const Film& other, double peak_reference, 
   for (RegionTest& t : tests) {
     t.region = {t.region.x0 + crop.x0, t.region.y0 + crop.y0, t.region.x1 + crop.x0, t.region.y1 + crop.y0};
     const bool both_dark = t.a == 0.0 && t.b == 0.0;
-    const bool usable = both_dark || std::min(carrying_samples(reference, t.region),
-                                              carrying_samples(other, t.region)) >= kEffectiveSamples;
+    const bool usable = both_dark || std::min(effective_samples(reference, t.region),
+                                              effective_samples(other, t.region)) >= kEffectiveSamples;
     const auto chance_of = [&](const Film& film, double low, double high, double peak) {
       return film.settings().correlated ? 0.0 : chance_of_low_mean(low, high, samples_in(film, t.region), peak);
     };
