@@ -1,5 +1,5 @@
 // An integrator without a scene, for tests of what stands around integrators: every sample is a known distribution
-// computed from its own numbers (pixel, index, replicate), as the contract of a memoryless integrator asks.
+// computed from its own numbers (pixel, index, replicate), as the contract of a replayable integrator asks.
 #pragma once
 
 #include "core/hash.h"

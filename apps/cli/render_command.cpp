@@ -106,10 +106,10 @@ void report_empty_pixels(const RenderResult& result) {
 void report_invalid_samples(const PreparedRender& prepared, const RenderResult& result) {
   const InvalidSamples& invalid = result.invalid;
   if (!invalid.first) return;
-  tell(
-      "etendue: warning: {} of {} samples are invalid ({}) and were taken for black; the image is marked. The "
-      "first of them, step by step:\n  {}\n",
-      invalid.total(), result.rays.camera, invalid_text(invalid), replay_command(prepared, result, *invalid.first));
+  const bool replayable = prepared.settings.traits.replayable;
+  tell("etendue: warning: {}{} are invalid ({}) and were taken for black; the image is marked.{}\n", invalid.total(),
+       replayable ? fmt::format(" of {} samples", result.rays.camera) : " contributions", invalid_text(invalid),
+       replayable ? " The first of them, step by step:\n  " + replay_command(prepared, result, *invalid.first) : "");
 }
 
 // What has come of the run so far.

@@ -13,7 +13,7 @@ namespace etd {
 
 // What an algorithm promises, and so what the driver, the image's metadata and verdicts on it may rely on.
 struct IntegratorTraits {
-  bool memoryless = true;          // a sample depends only on its own numbers, so that it can be drawn again alone
+  bool replayable = true;          // a sample of a pixel depends on its own numbers alone: replay() draws it again
   bool splats = false;             // light reaches pixels of any work item: replicates are rendered one after the other
   bool correlated_pixels = false;  // errors of pixels depend on each other: only replicates tell that of a region
   bool features = true;            // samples tell what the camera sees: albedo, normals, depth, alpha and ids

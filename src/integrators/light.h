@@ -23,7 +23,8 @@ struct LightSettings {
 
 class LightIntegrator : public Integrator {
  public:
-  static constexpr IntegratorTraits kTraits{.splats = true, .correlated_pixels = true, .features = false};
+  static constexpr IntegratorTraits kTraits{
+      .replayable = false, .splats = true, .correlated_pixels = true, .features = false};
   static const ModelDecl& decl();
   static std::unique_ptr<Integrator> create(const ParamReader& p, const Scene& scene, const IntegratorContext& context);
   static std::vector<Variant> variants(const Scene& scene, int max_depth);

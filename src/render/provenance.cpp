@@ -89,7 +89,7 @@ void add_provenance(const PreparedRender& prepared, const FinishedRender& finish
                         nlohmann::json(list).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   metadata.emplace_back("etendue:substitutes", prepared.substitutes.empty() ? "none" : prepared.substitutes);
   metadata.emplace_back("etendue:strongest", strongest_json(finished.film));
-  if (const auto& first = finished.result.invalid.first)
+  if (const auto& first = finished.result.invalid.first; first && prepared.settings.traits.replayable)
     metadata.emplace_back("etendue:invalid_replay", command(scene, *first, list));
 }
 
