@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "accel/spawn.h"
+#include "integrators/camera_path.h"
 #include "integrators/light.h"
+#include "integrators/next_event.h"
 #include "integrators/path_record.h"
 #include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
@@ -142,47 +144,9 @@ std::string PathIntegrator::bias() const {
 
 namespace {
 
-// Sampler dimensions: film, lens and time for the camera ray, then a fixed block per path vertex.
-constexpr uint32_t kCameraDimensions = 4, kVertexDimensions = 6;
+// Sampler dimensions: those of the camera, then a fixed block per path vertex.
+constexpr uint32_t kVertexDimensions = 6;
 enum VertexDimension : uint32_t { kLightChoice, kLightPoint, kScatter, kScatterLobe, kRoulette };
-
-// Under MIS scattering reaches every direction as well.
-LightSampling light_sampling(PathMode mode) {
-  return mode == PathMode::kMis ? LightSampling::kCompensated : LightSampling::kComplete;
-}
-
-struct Vertex {
-  const SurfacePoint& point;
-  const SurfaceScatter& scatter;
-  Vec3 wo;
-};
-
-// Radiance that one sampled light sends along wo through the vertex, weighted against closure sampling under MIS.
-template <class Recorder>
-Spectrum next_event(const Scene& scene, const LightSampler& lights, const Vertex& v, const PathSettings& settings,
-                    Sampler& sampler, HashStream& rng, float time, PixelSample& out, Recorder& recorder) {
-  const double u_light = sampler.get_choice();
-  const Vec2 u_point = sampler.get_2d();
-  const auto choice = lights.sample(u_light);
-  if (!choice) return Spectrum();
-  recorder.light(choice->light, choice->probability);
-  const Light& light = scene.lights[choice->light];
-  const auto s = light.sample_li(v.point.p, u_point, light_sampling(settings.mode), time);
-  if (!s) return Spectrum();
-  Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
-  recorder.light_sample(*s, f);
-  if (is_black(f)) return Spectrum();
-  ++out.rays.shadow;
-  const bool infinite = light.is_infinite();
-  if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, time) : shadow_ray(v.point, s->on_light, time)))
-    return Spectrum();
-  const float pdf = choice->probability * s->pdf;
-  const bool both = settings.mode == PathMode::kMis && !s->is_delta;
-  const float scatter_pdf = both ? v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance) : 0.0f;
-  const float weight = both ? mis_weight(settings.heuristic, pdf, scatter_pdf) : 1.0f;
-  recorder.light_visible(scatter_pdf, weight);
-  return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
-}
 
 }  // namespace
 
@@ -197,23 +161,19 @@ PixelSample PathIntegrator::record_pixel(int x, int y, Sampler& sampler, PathRec
 template <class Recorder>
 PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recorder) const {
   PixelSample out;
-  const FilterSample film = scene_.filter.sample(sampler.get_2d());
-  out.weight = film.weight;
-  out.distance2 = sqr(film.offset.x) + sqr(film.offset.y);
-  const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
-                        sampler.get_2d(),
-                        scene_.moves ? sampler.get_1d() : 0.0f};
-  Ray ray = scene_.camera.generate_ray(at);
-  recorder.camera(at, ray);
+  const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
+  Ray ray = start.ray;
+  recorder.camera(start.sample, ray);
 
   const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
+  const bool mis = settings_.mode == PathMode::kMis;
+  const NextEvent how{lights, mis ? std::optional(settings_.heuristic) : std::nullopt};
+  PathFeatures features;
   Spectrum beta(1.0f);          // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
   SurfacePoint last;            // the vertex it left
-  bool features_pending = true;
-  float path_length = 0.0f;
 
   const auto add = [&](int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
@@ -226,8 +186,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (is_black(radiance)) return;
     float pdf_light = 0.0f, weight = 1.0f;
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
-    if (!only_scattering && settings_.mode == PathMode::kMis) {
-      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, light_sampling(settings_.mode), ray.time);
+    if (!only_scattering && mis) {
+      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, how.sampling(), ray.time);
       pdf_light = lights.probability(light) * pdf;
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
@@ -249,8 +209,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     const SurfaceHit surface = scene_.surface(hit);
     const SurfacePoint& point = surface.point;
     const Vec3 wo = -ray.d;
-    path_length += hit.t;
-    if (depth == 0) out.alpha = 1.0f, out.ids = scene_.ids_of(hit);
+    features.meet(scene_, depth, hit, out);
 
     // Light that the vertex emits.
     if (surface.light != kNoId) add_emission(depth, surface.light, &point);
@@ -262,14 +221,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
     recorder.surface(hit, surface, shading);
-    if (features_pending && !(bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) {
-      out.albedo = scatter.albedo(wo);
-      out.normal = scatter.visible_normal(wo);
-      out.position = point.p - Point3();
-      out.depth = path_length;
-      out.coverage = 1.0f;
-      features_pending = false;
-    }
+    features.shade(point, scatter, wo, out);
     if (depth == settings_.max_depth) {
       recorder.end(PathEnd::kDepth);
       break;
@@ -278,8 +230,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      add(depth + 1,
-          beta * next_event(scene_, lights, {point, scatter, wo}, settings_, sampler, rng, ray.time, out, recorder));
+      add(depth + 1, beta * next_event(scene_, how, {point, scatter, wo, ray.time}, sampler, rng, out.rays, recorder));
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.

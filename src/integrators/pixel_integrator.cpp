@@ -50,8 +50,7 @@ void PixelIntegrator::render(const Pass& pass, uint32_t, size_t item, Sink& sink
       Sink::Pixel pixel(sink, x, y);
       const auto [begin, end] = pass.samples(x, y);
       for (uint32_t replicate = pass.first_replicate; replicate < pass.end_replicate; ++replicate)
-        for (uint32_t index = begin; index < end; ++index)
-          pixel.add(replicate, index, sample(x, y, replicate, index));
+        for (uint32_t index = begin; index < end; ++index) pixel.add(replicate, index, sample(x, y, replicate, index));
     }
 }
 

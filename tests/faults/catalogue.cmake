@@ -193,12 +193,11 @@ edit(film/film.cpp [[/ (n * (n - 1));]] [[/ (n * (FAULT ? n : n - 1));]])
 
 closed_forms(tests sky_alone sky_plane furnace_box square_light)
 fault(mis-light-weight-one "light samples are not weighted against scattering" "${tests}")
-edit(integrators/path.cpp [[const bool both = settings.mode == PathMode::kMis && !s->is_delta;]]
-     [[const bool both = !FAULT && settings.mode == PathMode::kMis && !s->is_delta;]])
+edit(integrators/next_event.h [[const bool both = how.heuristic && !s->is_delta;]]
+     [[const bool both = !FAULT && how.heuristic && !s->is_delta;]])
 
 fault(mis-scattering-weight-one "emission that scattering finds is not weighted against light samples" "${tests}")
-edit(integrators/path.cpp [[if (!only_scattering && settings_.mode == PathMode::kMis) {]]
-     [[if (!FAULT && !only_scattering && settings_.mode == PathMode::kMis) {]])
+edit(integrators/path.cpp [[if (!only_scattering && mis) {]] [[if (!FAULT && !only_scattering && mis) {]])
 
 closed_forms(tests sky_and_square)
 fault(mis-without-choice-of-light "the weight of emission leaves out the chance that the light is chosen" "${tests}:StatisticalAgreement.*lamps*")
@@ -218,13 +217,13 @@ fault(uniform-heuristic-of-one "uniform weights are one half even where one tech
 edit(integrators/mis.h [[(other > 0.0f ? 0.5f : 1.0f)]] [[(FAULT || other > 0.0f ? 0.5f : 1.0f)]])
 
 fault(uniform-choice-weighted-by-power "lights chosen all alike are weighted as if by their power" "VerifyScene.*")
-edit(integrators/path.cpp [[const float pdf = choice->probability * s->pdf;]]
+edit(integrators/next_event.h [[const float pdf = choice->probability * s->pdf;]]
      [[const float pdf = (FAULT ? scene.light_sampler.probability(choice->light) : choice->probability) * s->pdf;]])
 
 closed_forms(tests latlong_sky equal_area_sky)
 fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")
-edit(integrators/path.cpp [[return mode == PathMode::kMis ? LightSampling::kCompensated]]
-     [[return mode == PathMode::kMis || FAULT ? LightSampling::kCompensated]])
+edit(integrators/next_event.h [[return heuristic ? LightSampling::kCompensated]]
+     [[return heuristic || FAULT ? LightSampling::kCompensated]])
 
 closed_forms(tests furnace_box furnace_depth furnace_sphere)
 fault(roulette-without-compensation "paths that survive roulette are not made up for those that end" "${tests}")
@@ -239,7 +238,7 @@ edit(integrators/path.cpp [[only_scattering = s->is_delta();]] [[only_scattering
 
 closed_forms(tests alpha_light alpha_sky alpha_veil)
 fault(holes-of-lights-ignored "light samples count the holes of a light" "${tests}")
-edit(integrators/path.cpp [[* scene.light_alpha(choice->light, s->on_light)]]
+edit(integrators/next_event.h [[* scene.light_alpha(choice->light, s->on_light)]]
      [[* (FAULT ? 1.0f : scene.light_alpha(choice->light, s->on_light))]])
 
 fault(holes-throw-shadows "shadow rays do not pass through holes" "${tests}:Alpha.*")
@@ -321,11 +320,11 @@ edit(cameras/spherical.cpp [[kPi * std::hypot(local.x, local.z);]] [[kPi * (FAUL
 
 closed_forms(tests motion_edge motion_edge_camera)
 fault(time-not-sampled "all rays leave when the shutter opens" "${tests}")
-edit(integrators/path.cpp [[scene_.moves ? sampler.get_1d() : 0.0f]] [[scene_.moves && !FAULT ? sampler.get_1d() : 0.0f]])
+edit(integrators/camera_path.h [[scene.moves ? sampler.get_1d() : 0.0f]] [[scene.moves && !FAULT ? sampler.get_1d() : 0.0f]])
 
 closed_forms(tests motion_disk_light motion_point_light motion_sphere_light)
 fault(light-at-another-time "lights are sampled where they are when the shutter opens" "${tests}")
-edit(integrators/path.cpp [[light_sampling(settings.mode), time);]] [[light_sampling(settings.mode), FAULT ? 0.0f : time);]])
+edit(integrators/next_event.h [[how.sampling(), v.time);]] [[how.sampling(), FAULT ? 0.0f : v.time);]])
 
 closed_forms(tests motion_growing_light motion_stretching_light)
 fault(stretch-of-moving-lights "the density on a moving light leaves out how its size changes" "${tests}")

@@ -1,0 +1,59 @@
+// Next-event estimation: the light that one sampled light sends straight to a vertex of a path.
+#pragma once
+
+#include <optional>
+
+#include "accel/spawn.h"
+#include "integrators/mis.h"
+#include "materials/surface_scatter.h"
+#include "samplers/sampler.h"
+#include "scene/scene.h"
+
+namespace etd {
+
+struct NextEvent {
+  const LightSampler& lights;
+  // Where scattering at the vertex can find the same light too, the heuristic that weighs the two.
+  std::optional<MisHeuristic> heuristic;
+
+  // Under MIS scattering reaches every direction as well.
+  LightSampling sampling() const { return heuristic ? LightSampling::kCompensated : LightSampling::kComplete; }
+};
+
+// Of a path from the camera.
+struct NextEventVertex {
+  const SurfacePoint& point;
+  const SurfaceScatter& scatter;
+  Vec3 wo;
+  float time;
+};
+
+// Returns the radiance that leaves the vertex along wo, weighted. Draws the next two dimensions of the sampler: for the
+// light, and for the point on it. Counts the shadow ray, and tells the recorder (path_record.h) what it does.
+template <class Recorder>
+Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVertex& v, Sampler& sampler,
+                    HashStream& rng, RayCounts& rays, Recorder& recorder) {
+  const double u_light = sampler.get_choice();
+  const Vec2 u_point = sampler.get_2d();
+  const auto choice = how.lights.sample(u_light);
+  if (!choice) return Spectrum();
+  recorder.light(choice->light, choice->probability);
+  const Light& light = scene.lights[choice->light];
+  const auto s = light.sample_li(v.point.p, u_point, how.sampling(), v.time);
+  if (!s) return Spectrum();
+  const Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
+  recorder.light_sample(*s, f);
+  if (is_black(f)) return Spectrum();
+  ++rays.shadow;
+  const bool infinite = light.is_infinite();
+  if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, v.time) : shadow_ray(v.point, s->on_light, v.time)))
+    return Spectrum();
+  const float pdf = choice->probability * s->pdf;
+  const bool both = how.heuristic && !s->is_delta;
+  const float scatter_pdf = both ? v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance) : 0.0f;
+  const float weight = both ? mis_weight(*how.heuristic, pdf, scatter_pdf) : 1.0f;
+  recorder.light_visible(scatter_pdf, weight);
+  return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
+}
+
+}  // namespace etd
