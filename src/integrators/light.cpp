@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "accel/spawn.h"
-#include "core/flush_to_zero.h"
-#include "materials/surface_scatter.h"
+#include "integrators/light_path.h"
 
 namespace etd {
 
@@ -76,23 +75,6 @@ namespace {
 
 constexpr uint64_t kPathsPerItem = 4096;
 
-// Sampler dimensions: time, light and place, direction and the join of the light's own point, then a fixed block per
-// vertex.
-constexpr uint32_t kLightDimensions = 5, kVertexDimensions = 4;
-enum VertexDimension : uint32_t { kLens, kScatter, kScatterLobe, kRoulette };
-
-// What a ray met before its start when it comes from infinitely far away: the first thing of all. Looked for backwards,
-// from surface to surface.
-bool find_first(const Scene& scene, const Ray& ray, Hit& first, RayCounts& rays) {
-  bool found = false;
-  Ray back{ray.o, -ray.d, kInfinity, ray.time};
-  for (Hit hit; ++rays.indirect, scene.intersect(back, hit); found = true) {
-    first = hit;
-    back = spawn_ray(scene.surface(hit).point, back.d, ray.time);
-  }
-  return found;
-}
-
 // Whether nothing is between the point and the camera.
 bool sees(const Scene& scene, const SurfacePoint& point, const CameraConnection& c, float time, RayCounts& rays) {
   ++rays.shadow;
@@ -122,77 +104,39 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
   Sampler sampler(context_.sampler, context_.seed);
   sampler.start(path >> 32, replicate, static_cast<uint32_t>(path));
   const auto number = static_cast<uint32_t>(path / paths_per_sample()) * context_.replicates + replicate;
-  const auto splat = [&](const CameraConnection& c, int depth, const Spectrum& light) {
+  const auto join = [&](const SurfacePoint& point, float time) {
+    return scene_.camera.sample_wi(point.p, sampler.get_2d(), time, camera_splat_.margin());
+  };
+  const auto splat = [&](const SurfacePoint& point, const CameraConnection& c, float time, int depth,
+                         const Spectrum& light) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
-    camera_splat_.add(sink, c.importance.film, depth, light, number);
+    if (!is_black(light) && sees(scene_, point, c, time, rays))
+      camera_splat_.add(sink, c.importance.film, depth, light, number);
   };
 
-  // A ray that leaves a light.
-  const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
-  const float time = scene_.camera.ray_time(scene_.moves ? sampler.get_1d() : 0.0f);
-  const auto choice = lights.sample(sampler.get_choice());
-  if (!choice) return rays;
-  const Light& light = scene_.lights[choice->light];
-  const Vec2 u_position = sampler.get_2d(), u_direction = sampler.get_2d();
-  const auto emitted = light.sample_le(u_position, u_direction, scene_.emission_disks, time);
-  if (!emitted) return rays;
-  const bool has_surface = !light.is_infinite() && !light.is_delta();
-  const float alpha = has_surface ? scene_.light_alpha(choice->light, emitted->on_light) : 1.0f;
-  Spectrum beta = emitted->weight() * (alpha / choice->probability);  // flux along the ray, per path
-
+  float time = 0;
   // The light itself, as the camera sees it.
-  if (has_surface) {
-    const SurfacePoint& point = emitted->on_light;
-    if (const auto c = scene_.camera.sample_wi(point.p, sampler.get_2d(), time, camera_splat_.margin())) {
-      const Spectrum radiance = light.emitted(&point, c->wi, {}, time);
-      const float geometry = std::abs(dot(point.ng, c->wi)) * c->weight;
-      const Spectrum seen = radiance * (geometry * alpha / (choice->probability * emitted->pdf_position));
-      if (!is_black(seen) && sees(scene_, point, *c, time, rays)) splat(*c, 0, seen);
-    }
-  }
-
-  Ray ray = emitted->ray;
-  float throughput = 1.0f;  // of the path since it left the light
-  for (int depth = 1; depth <= settings_.max_depth; ++depth) {
-    // Find the next vertex.
-    Hit hit;
-    ++rays.indirect;
-    const bool from_within = depth == 1 && emitted->starts_within;
-    if (!(from_within && find_first(scene_, ray, hit, rays)) && !scene_.intersect(ray, hit)) break;
-    const SurfaceHit surface = scene_.surface(hit);
-    const SurfacePoint& point = surface.point;
-    const Vec3 wo = -ray.d;
-    const uint32_t dimension = kLightDimensions + static_cast<uint32_t>(depth - 1) * kVertexDimensions;
-    HashStream rng(sampler.key(dimension));
-    const Shading shading = scene_.shade(surface, rng);
-    const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
-
-    // Light that goes straight to the camera.
-    if (!scatter.bsdf().is_delta_only()) {
-      sampler.set_dimension(dimension + kLens);
-      if (const auto c = scene_.camera.sample_wi(point.p, sampler.get_2d(), time, camera_splat_.margin())) {
-        const Spectrum seen = beta * scatter.eval_cos(wo, c->wi, TransportMode::kImportance, rng) * c->weight;
-        if (!is_black(seen) && sees(scene_, point, *c, time, rays)) splat(*c, depth, seen);
-      }
-    }
-    if (depth == settings_.max_depth) break;
-
-    // Light that goes elsewhere: continue in a sampled direction.
-    sampler.set_dimension(dimension + kScatter);
-    const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kImportance, rng);
-    if (!s) break;
-    beta *= s->weight;
-    throughput *= max_value(s->weight);
-    ray = spawn_ray(point, s->wi, time);
-
-    // Russian roulette on the share of the flux that is left.
-    if (depth >= settings_.roulette_depth && throughput < 1.0f) {
-      sampler.set_dimension(dimension + kRoulette);
-      if (!(sampler.get_1d() < throughput)) break;
-      beta *= 1.0f / throughput;
-      throughput = 1.0f;
-    }
-  }
+  const auto at_light = [&](const LightPathStart& s) {
+    time = s.time;
+    if (!s.has_surface) return;
+    const SurfacePoint& point = s.emission.on_light;
+    const auto c = join(point, time);
+    if (!c) return;
+    const Spectrum radiance = s.light.emitted(&point, c->wi, {}, time);
+    const float geometry = std::abs(dot(point.ng, c->wi)) * c->weight;
+    splat(point, *c, time, 0, radiance * (geometry * s.alpha / (s.probability * s.emission.pdf_position)));
+  };
+  // Light that goes straight to the camera.
+  const auto at_vertex = [&](const LightPathVertex& v) {
+    if (v.scatter.bsdf().is_delta_only()) return true;
+    sampler.set_dimension(v.dimension);
+    if (const auto c = join(v.point, time))
+      splat(v.point, *c, time, v.depth,
+            v.flux * v.scatter.eval_cos(v.wo, c->wi, TransportMode::kImportance, v.rng) * c->weight);
+    return true;
+  };
+  follow_light_path(scene_, uniform_ ? *uniform_ : scene_.light_sampler,
+                    {settings_.max_depth, settings_.roulette_depth}, sampler, rays, at_light, at_vertex);
   return rays;
 }
 

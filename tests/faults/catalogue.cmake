@@ -265,7 +265,7 @@ fault(splats-not-carried "sums of splats lose what goes from the lower to the up
 edit(film/splat_buffer.h [[before + low < before ? 1 : 0;]] [[!FAULT && before + low < before ? 1 : 0;]])
 
 fault(light-choice-not-divided "paths from lights are not divided by the probability of their light" "${light}/mixed")
-edit(integrators/light.cpp [[(alpha / choice->probability);]] [[(alpha / (FAULT ? 1.0f : choice->probability));]])
+edit(integrators/light_path.h [[(alpha / probability);]] [[(alpha / (FAULT ? 1.0f : probability));]])
 
 fault(lamp-without-cosine "the light itself is joined to the camera without its cosine" "${light}/equal_area")
 edit(integrators/light.cpp [[const float geometry = std::abs(dot(point.ng, c->wi)) * c->weight;]]
@@ -273,15 +273,15 @@ edit(integrators/light.cpp [[const float geometry = std::abs(dot(point.ng, c->wi
 
 fault(radiance-along-light-paths "paths from lights scatter as paths from the camera do"
       "StatisticalAgreement.BumpyRoom:StatisticalAgreement.BumpyGlass")
-edit(integrators/light.cpp [[scatter.eval_cos(wo, c->wi, TransportMode::kImportance, rng)]]
-     [[scatter.eval_cos(wo, c->wi, FAULT ? TransportMode::kRadiance : TransportMode::kImportance, rng)]])
+edit(integrators/light.cpp [[v.scatter.eval_cos(v.wo, c->wi, TransportMode::kImportance, v.rng)]]
+     [[v.scatter.eval_cos(v.wo, c->wi, FAULT ? TransportMode::kRadiance : TransportMode::kImportance, v.rng)]])
 
 fault(density-of-one-disk "rays of infinite lights have the density of the disk that was chosen" "${lights}")
 edit(lights/emission_disks.cpp [[if (level == known || meets(s))]] [[if (level == known || (!(FAULT && known >= 0) && meets(s)))]])
 
 fault(far-things-let-light-through "what lies before the start of a ray from infinitely far away does not block it"
       "${light}/under_a_far_roof")
-edit(integrators/light.cpp [[depth == 1 && emitted->starts_within;]] [[!FAULT && depth == 1 && emitted->starts_within;]])
+edit(integrators/light_path.h [[depth == 1 && emitted->starts_within;]] [[!FAULT && depth == 1 && emitted->starts_within;]])
 
 # ---- geometry
 
