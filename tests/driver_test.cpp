@@ -370,7 +370,7 @@ class InPhases : public Integrator {
     const int x = static_cast<int>(item);
     if (traits_.splats) {
       // Each item lights the pixel of the next one, from as many paths as the image has pixels.
-      sink.splat((x + 1) % 12, 0, 1, Spectrum(1.0f), 1.0f, 0);
+      Sink::Splat(sink, 1, Spectrum(1.0f), {}).add((x + 1) % 12, 0, 1.0f);
       sink.count_light_paths(pass.end - pass.begin);
       return;
     }

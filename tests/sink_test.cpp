@@ -36,9 +36,9 @@ TEST(Sink, RefusesAndCountsWhatIsNoLight) {
   Sink sink(film);
   constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNaN = std::numeric_limits<float>::quiet_NaN();
   Sink::Pixel(sink, 0, 0).add(2, 5, direct(kNaN));
-  sink.splat(0, 0, 1, Spectrum(-1.0f), 1.0f, 3);
-  sink.splat(0, 0, 1, Spectrum(kInfinite), 1.0f, 2);
-  sink.splat(0, 0, 1, Spectrum(1e30f), 1.0f, 1);  // more than the film can sum up
+  Sink::Splat(sink, 1, Spectrum(-1.0f), {0, 0, 3}).add(0, 0, 1.0f);
+  Sink::Splat(sink, 1, Spectrum(kInfinite), {0, 0, 2}).add(0, 0, 1.0f);
+  Sink::Splat(sink, 1, Spectrum(1e30f), {0, 0, 1}).add(0, 0, 1.0f);  // more than the film can sum up
   EXPECT_EQ(sink.counts().invalid.nan, 1u);
   EXPECT_EQ(sink.counts().invalid.negative, 1u);
   EXPECT_EQ(sink.counts().invalid.infinite, 2u);
@@ -52,12 +52,12 @@ TEST(Sink, SplatsBecomeMeansOverTheLightPathsOfTheWholeImage) {
   settings.sensor.imaging_ratio = 2;
   Film film(settings);
   Sink sink(film);
-  sink.splat(1, 1, 0, Spectrum(3.0f), 0.5f, 0);
-  sink.splat(1, 1, 1, Spectrum(4.0f), -0.25f, 0);
-  sink.splat(1, 1, 2, Spectrum(5.0f), 1.0f, 0);
-  sink.splat(1, 1, 7, Spectrum(6.0f), 1.0f, 0);
-  sink.splat(0, 1, 0, Spectrum(9.0f), 1.0f, 0);  // beside the crop
-  sink.splat(1, 2, 0, Spectrum(9.0f), 1.0f, 0);
+  Sink::Splat(sink, 0, Spectrum(3.0f), {1, 1, 0}).add(1, 1, 0.5f);
+  Sink::Splat(sink, 1, Spectrum(4.0f), {1, 1, 0}).add(1, 1, -0.25f);
+  Sink::Splat(sink, 2, Spectrum(5.0f), {1, 1, 0}).add(1, 1, 1.0f);
+  Sink::Splat(sink, 7, Spectrum(6.0f), {1, 1, 0}).add(1, 1, 1.0f);
+  Sink::Splat(sink, 0, Spectrum(9.0f), {0, 1, 0}).add(0, 1, 1.0f);  // beside the crop
+  Sink::Splat(sink, 0, Spectrum(9.0f), {1, 2, 0}).add(1, 2, 1.0f);
   for (int y = 0; y < 2; ++y) film.fold_splats(y, 1, 24, 80);
   const PixelSums sums = film.sums(1, 1, 1);
   EXPECT_EQ(sums.count, 3.0);  // 24 paths for 4 x 2 pixels

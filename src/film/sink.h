@@ -48,10 +48,22 @@ class Sink {
     PixelIds ids_;
   };
 
-  // Light that a path from a light brings to one pixel after `depth` scattering events, weighted with the pixel's
-  // filter and not divided by the number of paths; what falls beside the crop is left out. Any item may splat to any
-  // pixel. `number` names the path where the light is invalid.
-  void splat(int x, int y, int depth, const Spectrum& light, float filter, uint32_t number);
+  // Light that a path from a light brings to the film after `depth` scattering events, not divided by the number of
+  // paths. It is admitted once and may then be added to any pixel, also of other items, weighted with the pixel's
+  // filter; what falls beside the crop is left out. `id` names the path, and the place, where the light is invalid.
+  class Splat {
+   public:
+    Splat(Sink& sink, int depth, const Spectrum& light, const SampleId& id);
+    void add(int x, int y, float filter) {
+      const PixelBounds& crop = film_.settings().crop;
+      if (x >= crop.x0 && x < crop.x1 && y >= crop.y0 && y < crop.y1) film_.splat(x, y, depth_, light_ * filter);
+    }
+
+   private:
+    Film& film_;
+    int depth_;
+    Spectrum light_;
+  };
   // Paths from lights that were begun, whether or not they reached the camera: what splats are divided by.
   void count_light_paths(uint64_t count) { counts_.light_paths += count; }
   // Rays that no sample of a pixel has counted.

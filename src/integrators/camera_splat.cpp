@@ -20,20 +20,20 @@ int copies(float radius, int size) { return static_cast<int>(std::ceil(radius / 
 }  // namespace
 
 void CameraSplat::add(Sink& sink, Vec2 film, int depth, const Spectrum& light, uint32_t number) const {
-  if (!scene_.camera.film_repeats()) return add_once(sink, film, depth, light, number);
+  Sink::Splat splat(sink, depth, light, {static_cast<int>(film.x), static_cast<int>(film.y), number});
+  if (!scene_.camera.film_repeats()) return add_once(splat, film);
   const int columns = copies(radius_.x, width_), rows = copies(radius_.y, height_);
   for (int row = -rows; row <= rows; ++row)
-    for (int column = -columns; column <= columns; ++column)
-      add_once(sink, scene_.camera.repeated(film, column, row), depth, light, number);
+    for (int column = -columns; column <= columns; ++column) add_once(splat, scene_.camera.repeated(film, column, row));
 }
 
-void CameraSplat::add_once(Sink& sink, Vec2 film, int depth, const Spectrum& light, uint32_t number) const {
+void CameraSplat::add_once(Sink::Splat& splat, Vec2 film) const {
   const PixelRange xs(film.x, radius_.x, width_), ys(film.y, radius_.y, height_);
   for (int y = ys.begin; y < ys.end; ++y)
     for (int x = xs.begin; x < xs.end; ++x) {
       const Vec2 offset{film.x - (static_cast<float>(x) + 0.5f), film.y - (static_cast<float>(y) + 0.5f)};
       const float weight = scene_.filter.eval(offset);
-      if (weight != 0.0f) sink.splat(x, y, depth, light, weight, number);
+      if (weight != 0.0f) splat.add(x, y, weight);
     }
 }
 

@@ -14,12 +14,12 @@ class CameraSplat {
 
   // How far beyond the film filters reach, in pixels.
   float margin() const { return std::max(radius_.x, radius_.y); }
-  // `film` is a position in pixels; the rest as in Sink::splat(). Where the film repeats, its edges are joined as those
-  // of the sphere of directions are.
+  // `film` is a position in pixels; the rest as in Sink::Splat, with `number` that of the sample that the path belongs
+  // to. Where the film repeats, its edges are joined as those of the sphere of directions are.
   void add(Sink& sink, Vec2 film, int depth, const Spectrum& light, uint32_t number) const;
 
  private:
-  void add_once(Sink& sink, Vec2 film, int depth, const Spectrum& light, uint32_t number) const;
+  void add_once(Sink::Splat& splat, Vec2 film) const;
 
   const Scene& scene_;
   int width_, height_;

@@ -1,8 +1,6 @@
 // Next-event estimation: the light that one sampled light sends straight to a vertex of a path.
 #pragma once
 
-#include <optional>
-
 #include "accel/spawn.h"
 #include "integrators/mis.h"
 #include "materials/surface_scatter.h"
@@ -13,11 +11,11 @@ namespace etd {
 
 struct NextEvent {
   const LightSampler& lights;
-  // Where scattering at the vertex can find the same light too, the heuristic that weighs the two.
-  std::optional<MisHeuristic> heuristic;
+  bool mis = false;  // scattering at the vertex finds the same light too, and a heuristic weighs the two
+  MisHeuristic heuristic = MisHeuristic::kPower;
 
   // Under MIS scattering reaches every direction as well.
-  LightSampling sampling() const { return heuristic ? LightSampling::kCompensated : LightSampling::kComplete; }
+  LightSampling sampling() const { return mis ? LightSampling::kCompensated : LightSampling::kComplete; }
 };
 
 // Of a path from the camera.
@@ -49,9 +47,9 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
   if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, v.time) : shadow_ray(v.point, s->on_light, v.time)))
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
-  const bool both = how.heuristic && !s->is_delta;
+  const bool both = how.mis && !s->is_delta;
   const float scatter_pdf = both ? v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance) : 0.0f;
-  const float weight = both ? mis_weight(*how.heuristic, pdf, scatter_pdf) : 1.0f;
+  const float weight = both ? mis_weight(how.heuristic, pdf, scatter_pdf) : 1.0f;
   recorder.light_visible(scatter_pdf, weight);
   return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
 }

@@ -167,7 +167,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
 
   const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
   const bool mis = settings_.mode == PathMode::kMis;
-  const NextEvent how{lights, mis ? std::optional(settings_.heuristic) : std::nullopt};
+  const NextEvent how{lights, mis, settings_.heuristic};
   PathFeatures features;
   Spectrum beta(1.0f);          // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone

@@ -193,8 +193,8 @@ edit(film/film.cpp [[/ (n * (n - 1));]] [[/ (n * (FAULT ? n : n - 1));]])
 
 closed_forms(tests sky_alone sky_plane furnace_box square_light)
 fault(mis-light-weight-one "light samples are not weighted against scattering" "${tests}")
-edit(integrators/next_event.h [[const bool both = how.heuristic && !s->is_delta;]]
-     [[const bool both = !FAULT && how.heuristic && !s->is_delta;]])
+edit(integrators/next_event.h [[const bool both = how.mis && !s->is_delta;]]
+     [[const bool both = !FAULT && how.mis && !s->is_delta;]])
 
 fault(mis-scattering-weight-one "emission that scattering finds is not weighted against light samples" "${tests}")
 edit(integrators/path.cpp [[if (!only_scattering && mis) {]] [[if (!FAULT && !only_scattering && mis) {]])
@@ -222,8 +222,8 @@ edit(integrators/next_event.h [[const float pdf = choice->probability * s->pdf;]
 
 closed_forms(tests latlong_sky equal_area_sky)
 fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")
-edit(integrators/next_event.h [[return heuristic ? LightSampling::kCompensated]]
-     [[return heuristic || FAULT ? LightSampling::kCompensated]])
+edit(integrators/next_event.h [[return mis ? LightSampling::kCompensated]]
+     [[return mis || FAULT ? LightSampling::kCompensated]])
 
 closed_forms(tests furnace_box furnace_depth furnace_sphere)
 fault(roulette-without-compensation "paths that survive roulette are not made up for those that end" "${tests}")
