@@ -87,6 +87,8 @@ class Defective : public PixelIntegrator {
  public:
   Defective(const IntegratorContext& context, float bad) : PixelIntegrator(context), bad_(bad) {}
 
+  IntegratorTraits traits() const override { return {}; }
+
  protected:
   PixelSample sample_pixel(int x, int, Sampler& sampler) const override {
     const float u = sampler.get_1d();

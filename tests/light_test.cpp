@@ -113,7 +113,7 @@ TEST_P(StatisticalLight, AgreesWithPathsFromTheCamera) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StatisticalLight, testing::ValuesIn(cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& each) { return std::string(each.param.name); });
 
 Film render_light(uint32_t threads, const std::optional<PixelBounds>& crop = {}, const char* sampler = "sobol") {
   RenderOverrides o;

@@ -5,7 +5,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <utility>
+#include <vector>
 
 namespace etd {
 
@@ -15,22 +16,22 @@ class SplatBuffer {
   // What add() takes: values up to this size.
   static constexpr double kLargest = 0x1p61;
 
-  explicit SplatBuffer(size_t slots) : slots_(std::make_unique<Slot[]>(slots)) {}
+  explicit SplatBuffer(size_t slots) : slots_(slots) {}
 
   // Any thread may add to any slot.
   void add(size_t slot, double value) {
     Fixed fixed = static_cast<Fixed>(value);  // towards 0, so that what is left has the same sign and is below 1
     fixed = fixed * (Fixed{1} << 64) + static_cast<Fixed>((value - static_cast<double>(fixed)) * 0x1p64);
     const auto low = static_cast<uint64_t>(fixed), high = static_cast<uint64_t>(fixed >> 64);
-    const uint64_t before = slots_[slot].low.fetch_add(low, std::memory_order_relaxed);
+    const uint64_t before = std::atomic_ref(slots_[slot].low).fetch_add(low, std::memory_order_relaxed);
     const uint64_t carry = before + low < before ? 1 : 0;
-    if (high + carry != 0) slots_[slot].high.fetch_add(high + carry, std::memory_order_relaxed);
+    if (high + carry != 0)
+      std::atomic_ref(slots_[slot].high).fetch_add(high + carry, std::memory_order_relaxed);
   }
   // The sum, which is 0 from then on. Nobody may add meanwhile.
   double take(size_t slot) {
-    const uint64_t high = slots_[slot].high.exchange(0, std::memory_order_relaxed);
-    const uint64_t low = slots_[slot].low.exchange(0, std::memory_order_relaxed);
-    const auto sum = static_cast<Fixed>(static_cast<Unsigned>(high) << 64 | low);
+    const Slot taken = std::exchange(slots_[slot], {});
+    const auto sum = static_cast<Fixed>(static_cast<Unsigned>(taken.high) << 64 | taken.low);
     return static_cast<double>(sum) * 0x1p-64;
   }
 
@@ -40,10 +41,10 @@ class SplatBuffer {
   __extension__ typedef __int128 Fixed;
   __extension__ typedef unsigned __int128 Unsigned;
   struct Slot {
-    std::atomic<uint64_t> low{0}, high{0};
+    uint64_t low = 0, high = 0;
   };
 
-  std::unique_ptr<Slot[]> slots_;
+  std::vector<Slot> slots_;
 };
 
 }  // namespace etd

@@ -5,6 +5,7 @@
 
 #include "integrators/light.h"
 #include "integrators/path.h"
+#include "integrators/sppm.h"
 
 namespace etd {
 
@@ -26,7 +27,7 @@ struct EntriesOf {
 };
 
 // The first is the default.
-using Integrators = EntriesOf<PathIntegrator, LightIntegrator>;
+using Integrators = EntriesOf<PathIntegrator, LightIntegrator, SppmIntegrator>;
 
 const auto& entries() {
   static const auto all = Integrators::make();

@@ -5,16 +5,7 @@
 
 namespace etd {
 
-namespace {
-
-size_t tiles_along(int pixels, int tile) { return static_cast<size_t>((pixels + tile - 1) / tile); }
-
-}  // namespace
-
-size_t PixelIntegrator::work_items(const Pass&, uint32_t) const {
-  return tiles_along(context_.crop.width(), context_.tile_size) *
-         tiles_along(context_.crop.height(), context_.tile_size);
-}
+size_t PixelIntegrator::work_items(const Pass&, uint32_t) const { return tiles_.count(); }
 
 Sampler PixelIntegrator::start(int x, int y, uint32_t replicate, uint32_t index) const {
   Sampler sampler(context_.sampler, context_.seed);
@@ -40,13 +31,9 @@ bool PixelIntegrator::replay(const SampleId& id, PathRecord& record) const {
 }
 
 void PixelIntegrator::render(const Pass& pass, uint32_t, size_t item, Sink& sink) {
-  const size_t across = tiles_along(context_.crop.width(), context_.tile_size);
-  const int x0 = context_.crop.x0 + static_cast<int>(item % across) * context_.tile_size;
-  const int y0 = context_.crop.y0 + static_cast<int>(item / across) * context_.tile_size;
-  const int x1 = std::min(x0 + context_.tile_size, context_.crop.x1);
-  const int y1 = std::min(y0 + context_.tile_size, context_.crop.y1);
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
+  const PixelBounds tile = tiles_.tile(item);
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
       Sink::Pixel pixel(sink, x, y);
       const auto [begin, end] = pass.samples(x, y);
       for (uint32_t replicate = pass.first_replicate; replicate < pass.end_replicate; ++replicate)

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "core/bounds.h"
-#include "integrators/integrator.h"
+#include "integrators/pixel_tiles.h"
 
 namespace etd {
 
 class PixelIntegrator : public Integrator {
  public:
-  explicit PixelIntegrator(const IntegratorContext& context) : context_(context) {}
+  explicit PixelIntegrator(const IntegratorContext& context) : context_(context), tiles_(context) {}
 
   size_t work_items(const Pass& pass, uint32_t phase) const override;
   void render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) override;
@@ -31,6 +31,7 @@ class PixelIntegrator : public Integrator {
   Sampler start(int x, int y, uint32_t replicate, uint32_t index) const;
 
   IntegratorContext context_;
+  PixelTiles tiles_;
 };
 
 }  // namespace etd

@@ -13,8 +13,8 @@ namespace {
 
 // What converges to the picture of the path integrator, as far as it can render a scene at all, and "lightpath", which
 // is our "light". "ambientocclusion" and "function" compute something else and are not here.
-constexpr std::array<std::string_view, 8> kIntegrators = {"volpath", "simplepath", "simplevolpath", "bdpt",
-                                                          "mlt",     "sppm",       "lightpath",     "randomwalk"};
+constexpr std::array<std::string_view, 7> kIntegrators = {"volpath", "simplepath", "simplevolpath", "bdpt",
+                                                          "mlt",     "lightpath",  "randomwalk"};
 constexpr std::array<std::string_view, 5> kSamplers = {"paddedsobol", "zsobol", "halton", "pmj02bn", "stratified"};
 
 }  // namespace

@@ -241,9 +241,11 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("rays.shadow", std::to_string(result.rays.shadow));
   add("seconds", result.seconds);
   add("error", result.error);
-  add("stderr", std::string(settings.replicate_count >= kReplicatesForSpread
-                                ? "spread of the replicates"
-                                : "second moments (conservative for sobol samples)"));
+  const std::string noise_only = settings.traits.consistent ? "; noise only, without the bias" : "";
+  const char* spread = settings.replicate_count >= kReplicatesForSpread
+                           ? "spread of the replicates"
+                           : "second moments (conservative for sobol samples)";
+  add("stderr", spread + noise_only);
   add("biased", bias_text(bias, settings.sensor, result));
   add("invalid_samples", invalid_text(result.invalid));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));

@@ -236,7 +236,8 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   scene->light_data.kept = nullptr;
   scene->light_sampler = LightSampler(scene->lights, LightChoice::kPower, to_float(view.position - scene->origin));
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
-  scene->emission_disks = EmissionDisks(bounding_sphere(*scene), seen_by_camera(*scene, options.width, options.height));
+  scene->seen = seen_by_camera(*scene, options.width, options.height);
+  scene->emission_disks = EmissionDisks(bounding_sphere(*scene), scene->seen);
   check_precision(*scene, options.width, options.height, diagnostics);
   return scene;
 }

@@ -107,6 +107,7 @@ class Scene {
   CameraData camera_data;
   Filter filter;
   std::unique_ptr<Accelerator> accelerator;
+  BoundingSphere seen;           // around most of what the camera sees; of radius 0 if that is nothing
   EmissionDisks emission_disks;  // where rays of infinite lights enter
   Vec3d origin;                  // world position that was moved to (0, 0, 0)
   SceneSummary summary;

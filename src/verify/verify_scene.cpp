@@ -9,6 +9,7 @@
 #include "render/registry.h"
 #include "render/session.h"
 #include "scene/scene.h"
+#include "verify/extrapolate.h"
 #include "verify/film_mean.h"
 #include "verify/sample_peaks.h"
 
@@ -21,10 +22,12 @@ constexpr int kLargestSide = 64;
 // Fewer samples than this that carry a region's light are not normally distributed in the mean.
 constexpr double kEffectiveSamples = 50;
 constexpr size_t kChannels = 3;
+constexpr uint64_t kHalfRadiusSeed = 1;
 // One of the two renders of an estimator: what fails is rendered again, with other seeds and more samples.
 struct Run {
   uint64_t number = 0;  // of the estimator
   bool again = false;
+  uint64_t salt = 0;  // for seeds of its own
   uint32_t more() const { return again ? 4 : 1; }
 };
 
@@ -48,7 +51,7 @@ RenderOverrides overrides_for(const Variant& e, const SceneVerifyOptions& option
   else
     o.spp = options.spp * run.more();
   o.replicates = kReplicates;
-  o.seed = hash_combine(options.seed, run.number, run.again ? 1 : 0);
+  o.seed = hash_combine(options.seed, run.number, run.again ? 1 : 0, run.salt);
   o.threads = options.threads;
   o.tile_size = 8;
   o.features = false;
@@ -210,6 +213,18 @@ class SceneVerifier {
     return run_render(*prepared, observer, &stop_);
   }
 
+  // As render(), and what the square of a radius adds to the light taken off.
+  std::optional<FinishedRender> render_unbiased(const Variant& e, const Run& run) {
+    auto film = render(e, run);
+    if (!film || e.with_half_radius.empty()) return film;
+    Variant half = e;
+    half.set.insert(half.set.end(), e.with_half_radius.begin(), e.with_half_radius.end());
+    const auto with_half = render(half, {run.number, run.again, kHalfRadiusSeed});
+    if (!with_half) return {};
+    film->film = extrapolate_to_no_radius(film->film, with_half->film);
+    return film;
+  }
+
   // The usual way to estimate the image that `e` estimates. Null when it cannot be rendered, which is reported.
   const FinishedRender* reference_for(const Variant& e, bool again) {
     for (const Reference& r : references_)
@@ -240,7 +255,7 @@ class SceneVerifier {
     // Once more where it disagrees, with four times the samples and other seeds: chance does not strike twice.
     for (const bool again : {false, true}) {
       const FinishedRender* reference = reference_for(e, again);
-      const auto film = render(e, {i, again});
+      const auto film = render_unbiased(e, {i, again});
       if (!reference || !film) return false;
       describe(*reference, *film, report);
       const Weighing weighing = weigh(reference->film, film->film, peak_of(estimators_[0]), peak_of(e), level_);

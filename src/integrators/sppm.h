@@ -1,0 +1,68 @@
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) in the form of Knaus and Zwicker 2011: each
+// iteration is a photon map of its own with a radius that depends on its number alone, and an estimate of its own.
+// Their mean converges to the image, because the radii fall so slowly that the noise goes away as well.
+#pragma once
+
+#include "integrators/photon_grid.h"
+#include "integrators/pixel_tiles.h"
+#include "integrators/variant.h"
+#include "materials/surface_scatter.h"
+#include "params/declaration.h"
+#include "scene/scene.h"
+
+namespace etd {
+
+struct SppmSettings {
+  int max_depth = 5;                                     // scattering events of the longest path
+  bool emission = true, direct = true, indirect = true;  // which components are kept
+  double radius = 0;                                     // of the first iteration, in metres; 0: found from the scene
+  double radius_scale = 1;                               // on that
+  uint64_t photons = 0;                                  // paths from lights in each iteration; 0: as many as pixels
+  bool direct_photons = false;                           // photons bring direct light too
+  int roulette_depth = 2;                                // first depth at which paths may be ended early
+  LightChoice light_choice = LightChoice::kPower;
+};
+
+class SppmIntegrator : public Integrator {
+ public:
+  static constexpr IntegratorTraits kTraits{.replayable = false, .correlated_pixels = true, .consistent = true};
+  static const ModelDecl& decl();
+  static std::unique_ptr<Integrator> create(const ParamReader& p, const Scene& scene, const IntegratorContext& context);
+  static std::vector<Variant> variants(const Scene& scene, int max_depth);
+
+  SppmIntegrator(const Scene& scene, const SppmSettings& settings, const IntegratorContext& context);
+
+  IntegratorTraits traits() const override { return kTraits; }
+  std::string bias() const override;
+  // Each iteration has three: photons leave the lights, the grid is made of them, pixels gather.
+  uint32_t phases(const Pass& pass) const override;
+  void begin(const Pass& pass, uint32_t phase) override;
+  size_t work_items(const Pass& pass, uint32_t phase) const override;
+  void render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) override;
+
+  // The radius of iteration i, counted from 0 over all replicates: r_i^2 = r_{i-1}^2 (i + alpha) / (i + 1) for i > 0.
+  double radius(uint64_t iteration) const;
+
+ private:
+  struct Iteration {
+    uint32_t replicate, index;
+  };
+  Iteration iteration(const Pass& pass, uint32_t phase) const;
+  const LightSampler& lights() const { return uniform_ ? *uniform_ : scene_.light_sampler; }
+  void trace_photons(const Iteration& i, size_t item, Sink& sink);
+  void gather_tile(const Iteration& i, size_t item, Sink& sink) const;
+  PixelSample gather(int x, int y, Sampler& sampler) const;
+  Spectrum photon_light(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, int depth, HashStream& rng,
+                        Spectrum& direct) const;
+
+  const Scene& scene_;
+  SppmSettings settings_;
+  IntegratorContext context_;
+  PixelTiles tiles_;
+  std::optional<LightSampler> uniform_;  // in place of the scene's
+  PhotonGrid grid_;                      // of the running iteration
+  float radius_ = 0;                     // of the running iteration
+  uint64_t last_ = 0;                    // the highest number of an iteration that has begun
+};
+
+}  // namespace etd

@@ -1,0 +1,106 @@
+// Stochastic progressive photon mapping: the same bits for any number of threads, radii that follow the law, and an
+// image that converges to that of path tracing, as fast as the theory says.
+#include "integrators/sppm.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "expect_agreement.h"
+#include "formats/pbrt/reader.h"
+#include "render/session.h"
+#include "same_bits.h"
+#include "verify/extrapolate.h"
+
+namespace etd {
+namespace {
+
+constexpr double kFamilyLevel = 1e-4;
+
+RenderOverrides overrides(uint32_t spp, uint64_t seed) {
+  RenderOverrides o;
+  o.integrator = "sppm";
+  o.spp = spp;
+  o.seed = seed;
+  o.replicates = 16;
+  o.size = {16, 16};
+  return o;
+}
+
+Film render_agree(const std::string& scene, const RenderOverrides& o) {
+  return render_scene(source_path("tests/scenes/agree/" + scene + ".pbrt"), o);
+}
+
+TEST(Sppm, BitsDoNotDependOnThreadsOrTiles) {
+  RenderOverrides o = overrides(32, 3);
+  o.threads = 1;
+  const Film one = render_agree("glass_caustic", o);
+  o.threads = 3, o.tile_size = 5;
+  expect_same_bits(one, render_agree("glass_caustic", o));
+  EXPECT_GT(one.total(8, 12).indirect[1], 0.0);
+}
+
+// The integrator of a small scene.
+std::optional<PreparedRender> prepare(const RenderOverrides& o) {
+  Diagnostics diagnostics;
+  auto prepared =
+      prepare_render(read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics), o, diagnostics);
+  EXPECT_TRUE(prepared) << diagnostics.format_all();
+  return prepared;
+}
+
+TEST(Sppm, RadiiShrinkAsTheySay) {
+  RenderOverrides o = overrides(16, 1);
+  o.set = {{"integrator.radius", "0.25"}};
+  const auto prepared = prepare(o);
+  const auto& sppm = dynamic_cast<const SppmIntegrator&>(*prepared->integrator);
+  EXPECT_NEAR(sppm.radius(0), 0.25, 1e-12);
+  for (const uint64_t i : {uint64_t{1}, uint64_t{2}, uint64_t{7}, uint64_t{1000}, uint64_t{100000}}) {
+    const double before = sppm.radius(i - 1), now = sppm.radius(i), n = static_cast<double>(i);
+    EXPECT_NEAR(now * now, before * before * (n + 2.0 / 3) / (n + 1), 1e-9 * before * before);
+  }
+  // r_i^2 falls as i^(alpha - 1).
+  EXPECT_NEAR(std::log(sppm.radius(1000000) / sppm.radius(10000)) / std::log(100.0), -1.0 / 6, 1e-4);
+}
+
+TEST(Sppm, TakesPbrtsParametersAndSaysItsRadiiAndThatErrorsAreOfTheNoiseAlone) {
+  Diagnostics diagnostics;
+  SceneDescription scene = read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics);
+  RenderOverrides o = overrides(16, 1);
+  o.set = {{"integrator.radius", "0.2"}, {"integrator.photonsperiteration", "5000"}, {"integrator.maxdepth", "4"}};
+  auto prepared = prepare_render(scene, o, diagnostics);
+  ASSERT_TRUE(prepared) << diagnostics.format_all();
+  RenderObserver nobody;
+  const FinishedRender finished = run_render(*prepared, nobody);
+  const RowImage image = finished_rows(*prepared, finished);
+  std::string all;
+  for (const auto& [key, value] : image.metadata)
+    if (const auto* text = std::get_if<std::string>(&value)) all += key + " = " + *text + "\n";
+  EXPECT_NE(all.find("etendue:stderr = spread of the replicates; noise only"), std::string::npos) << all;
+  EXPECT_NE(all.find("photons are spread over 0.2 m in the first and 0.1"), std::string::npos) << all;
+  EXPECT_NE(all.find("etendue:pixels = correlated"), std::string::npos) << all;
+}
+
+// Two radii, extrapolated to 0, are path tracing's image.
+class StatisticalSppm : public testing::TestWithParam<const char*> {};
+
+TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
+  const std::string scene = GetParam();
+  const auto films = [&](const TestRun& run) {
+    RenderOverrides o = overrides(512 * run.more, 1 + run.fresh_seeds);
+    o.integrator = "path";
+    Film path = render_agree(scene, o);
+    o = overrides(256 * run.more, 2 + run.fresh_seeds);
+    o.set = {{"integrator.photonsperiteration", "2000"}, {"integrator.radiusscale", "0.5"}};
+    const Film wide = render_agree(scene, o);
+    o.seed = 3 + run.fresh_seeds;
+    o.set.back().second = "0.25";
+    return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_agree(scene, o)));
+  };
+  expect_agreement(scene, repeated_level(kFamilyLevel, 4, film_test_count(16, 16)), films);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm,
+                         testing::Values("conductor_box", "glass_caustic", "textured_room", "lamps"));
+
+}  // namespace
+}  // namespace etd
