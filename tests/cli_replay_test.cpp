@@ -85,6 +85,22 @@ TEST_F(Cli, ReplaysTheStrongestSamplesOfAnImage) {
   EXPECT_EQ(run("replay elsewhere/a.exr --fireflies 1").exit_code, 0);  // the scene beside it
 }
 
+TEST_F(Cli, LimitsHoldInARenderAndInItsReplay) {
+  std::string copies = "Translate 0 0 0\nObjectBegin \"a\"\nShape \"sphere\"\nObjectEnd\nObjectBegin \"b\"\n";
+  for (int i = 0; i < 8; ++i) copies += "ObjectInstance \"a\"\n";
+  folder_.write("s.pbrt", kScene + copies + "ObjectEnd\nObjectInstance \"b\"\nObjectInstance \"b\"\n");
+  const Finished refused = run("render s.pbrt -o a.exr --limit copies=2");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(has(refused.err, "the limit is 2; --limit copies=N raises it")) << refused.err;
+  const Finished done = run("render s.pbrt -o a.exr --limit copies=900 --limit repeated=1G");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(has(run("info a.exr").out, R"(["--limit","copies=900","--limit","repeated=1G"])"))
+      << run("info a.exr").out;
+  EXPECT_EQ(run("replay a.exr --fireflies 1").exit_code, 0);
+  // A limit of the command counts before that of the image.
+  EXPECT_TRUE(has(run("replay a.exr --fireflies 1 --limit copies=2").err, "the limit is 2"));
+}
+
 TEST_F(Cli, WhatCannotBeReplayedIsSaid) {
   folder_.write("s.pbrt", kScene);
   ASSERT_EQ(run("render s.pbrt -o a.exr").exit_code, 0);

@@ -324,7 +324,7 @@ TEST(ImageKinds, TexturesTellWhatWasNotTakenAsItStands) {
     EXPECT_NE(which, right);
     EXPECT_NE(diagnostics.format_all().find("it has several parts or layers, \"left\" (R, G, B), \"right\" (R, G, B)"),
               std::string::npos);
-    EXPECT_NE(diagnostics.format_all().find("\"string layer\" of an imagemap or light names the one to take"),
+    EXPECT_NE(diagnostics.format_all().find("\"string layer\" beside the file's name says which one to take"),
               std::string::npos);
   }
 }

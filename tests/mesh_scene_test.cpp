@@ -8,6 +8,7 @@
 #include "io/gzip.h"
 #include "io/mesh.h"
 #include "render/session.h"
+#include "scene/compile.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
 #include "verify/film_mean.h"
@@ -194,6 +195,59 @@ TEST(MeshShapes, ProblemsInFilesAreErrorsAtTheirShape) {
   for (const char* part : {"test:1:46: error: a.obj: line 2: vertex 2 does not exist",
                            "gone.off: the file does not exist", "\"objmesh\" takes: filename, materials"})
     EXPECT_NE(c.messages().find(part), std::string::npos) << part << "\n" << c.messages();
+}
+
+// However many shapes name a file, and however they write its name.
+TEST(MeshShapes, AFileIsReadAndReportedOnce) {
+  const TempFolder folder;
+  folder.write("a.ply", kPly);
+  folder.write("a.obj", "mtllib none.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("coloured.off", "COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n");
+  folder.write("bad.ply", "ply\n");
+  folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+  const auto shapes = [](const std::string& text) {
+    std::string all;
+    for (int i = 0; i < 5; ++i) all += fmt::format("Translate 2 0 0 {}\n", text);
+    return all;
+  };
+  const auto read = [&](const std::string& world, Diagnostics& diagnostics) {
+    return read_pbrt(folder.write("s.pbrt", "WorldBegin\nLightSource \"infinite\"\n" + world), diagnostics);
+  };
+  const auto count = [](const std::string& text, const std::string& word) {
+    int n = 0;
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+  };
+  {
+    Diagnostics diagnostics;
+    const SceneDescription scene = read(shapes("Shape \"offmesh\" \"string filename\" \"coloured.off\"") +
+                                            shapes("Shape \"offmesh\" \"string filename\" \"./coloured.off\"") +
+                                            shapes("Shape \"plymesh\" \"string filename\" \"a.ply\"") +
+                                            shapes("Shape \"objmesh\" \"string filename\" \"a.obj\""),
+                                        diagnostics);
+    for (size_t i = 15; i < 20; ++i) EXPECT_EQ(scene.shapes.at(i).mesh, scene.shapes.back().mesh) << i;
+    SceneFiles files;
+    const auto prepared = prepare_render(scene, {}, diagnostics, {}, &files);
+    ASSERT_TRUE(prepared) << diagnostics.format_all();
+    EXPECT_EQ(prepared->scene->summary.triangles, 20u);
+    const auto mesh = [&](size_t i) { return files.shapes.at(&scene.shapes.at(i)).mesh; };
+    for (size_t i = 1; i < 10; ++i) EXPECT_EQ(mesh(i), mesh(0)) << i;
+    for (size_t i = 11; i < 15; ++i) EXPECT_EQ(mesh(i), mesh(10)) << i;
+    const std::string messages = diagnostics.format_all();
+    EXPECT_EQ(count(messages, "coloured.off: "), 1) << messages;
+    EXPECT_EQ(count(messages, "none.mtl"), 1) << messages;
+    EXPECT_EQ(count(messages, "materials that no MTL file has"), 1) << messages;
+  }
+  {
+    Diagnostics diagnostics;
+    const SceneDescription scene =
+        read(shapes("Shape \"plymesh\" \"string filename\" \"bad.ply\"") +
+                 shapes("Shape \"objmesh\" \"string filename\" \"bad.obj\"") +
+                 shapes("Shape \"objmesh\" \"string filename\" \"bad.obj\" \"bool materials\" false"),
+             diagnostics);
+    EXPECT_FALSE(prepare_render(scene, {}, diagnostics));
+    EXPECT_EQ(diagnostics.error_count(), 3) << diagnostics.format_all();
+  }
 }
 
 TEST(MeshScene, AMeshFileIsAScene) {

@@ -243,6 +243,8 @@ const Unseen kUnseen[] = {
     {Family::kLight, "goniometric", "layer", "the same as of the texture \"imagemap\""},
     {Family::kLight, "projection", "layer", "the same as of the texture \"imagemap\""},
     {Family::kAreaLight, "diffuse", "layer", "the same as of the texture \"imagemap\""},
+    {Family::kMaterial, "", "layer", "which picture of a file; the tests of image parts look at it"},
+    {Family::kCamera, "", "layer", "which picture of a file; the tests of image parts look at it"},
     {Family::kCamera, "orthographic", "shutteropen", "the same as of the camera \"perspective\""},
     {Family::kCamera, "orthographic", "shutterclose", "the same as of the camera \"perspective\""},
     {Family::kCamera, "spherical", "shutteropen", "the same as of the camera \"perspective\""},

@@ -331,6 +331,21 @@ TEST(Provenance, WithoutANumberOfSamplesTheCommandNamesOne) {
   has("--spp 42");
 }
 
+TEST(Provenance, LimitsThatWereRaisedAreKept) {
+  Limits limits;
+  EXPECT_EQ(changed_limits(limits), std::vector<std::string>{});
+  ASSERT_EQ(set_limit(limits, "unpacked=2G"), "");
+  ASSERT_EQ(set_limit(limits, "repeated=1000"), "");
+  ASSERT_EQ(set_limit(limits, "copies=5000000"), "");
+  EXPECT_EQ(changed_limits(limits), (std::vector<std::string>{"copies=5000000", "repeated=1000", "unpacked=2G"}));
+  Diagnostics diagnostics(false, limits);
+  const auto prepared =
+      prepare_render(read_pbrt(source_path("tests/scenes/agree/lamps.pbrt"), diagnostics), {}, diagnostics);
+  ASSERT_TRUE(prepared) << diagnostics.format_all();
+  const std::string command = replay_command(*prepared, {}, {0, 0, 0});
+  EXPECT_TRUE(command.ends_with(" --limit copies=5000000 --limit repeated=1000 --limit unpacked=2G")) << command;
+}
+
 TEST(Provenance, TheHashKnowsTheSceneAndWhatItIncludes) {
   const TempFolder folder;
   const auto hash = [&folder](const std::string& scene, const std::string& part) {

@@ -83,7 +83,7 @@ void add_diff(CLI::App& app, Run& run) {
       ->delimiter(',')
       ->expected(1, 3);
   add_crop_option(*command, args->crop, "compare only these pixels of the full image: x0 <= x < x1, y0 <= y < y1");
-  command->add_option("--layer", args->layer, "compare this layer: direct, indirect, emission, albedo ...")
+  command->add_option("--layer", args->layer, "compare this part or layer: direct, indirect, emission, albedo ...")
       ->type_name("NAME");
   command
       ->add_option("--exposure", args->metrics.exposure,

@@ -5,6 +5,8 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "io/file.h"
+#include "io/picture.h"
 #include "printing.h"
 #include "render/memory.h"
 #include "render/provenance.h"
@@ -66,27 +68,67 @@ void print_info(const PreparedRender& prepared) {
     answer("  {:<12}{}\n", name, bytes_text(bytes));
 }
 
+using Entries = std::map<std::string, std::string>;
+
+// What etendue wrote into the metadata of a part.
+Entries entries_of(const ImagePart& part, const std::string& path) {
+  constexpr std::string_view kOurs = "etendue:";
+  Entries entries;
+  for (const auto& [name, value] : part.metadata)
+    if (name.compare(0, kOurs.size(), kOurs) == 0)
+      entries[name.substr(kOurs.size())] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+  if (const auto provenance = read_provenance(part))
+    entries["strongest"] =
+        fmt::format("{} samples remembered (etendue replay {} --fireflies 10)", provenance->strongest.size(), path);
+  return entries;
+}
+
+void answer_row(std::string_view name, const std::string& text) { answer("{:<26}{}\n", name, text); }
+
+void print_part(const ImagePart& part) {
+  answer_row("pixels", fmt::format("{}x{} at {},{} of {}x{}{}", part.width, part.height, part.x, part.y,
+                                   part.full_width, part.full_height, part.deep ? ", deep" : ""));
+  answer_row("channels", fmt::format("{}", fmt::join(part.channels, " ")));
+}
+
+// Which of several parts and layers the other commands take.
+void print_choice(const std::vector<ImagePart>& parts) {
+  std::vector<PartLayer> layers;
+  const LayerChoice choice = choose_picture(parts, layers);
+  if (!choice.layer) return answer_row("picture", choice.error + "; --layer NAME says which one to take");
+  const PartLayer& l = *choice.layer;
+  answer_row("picture", fmt::format("part {}{}{}{}, unless --layer NAME says another", l.part + 1,
+                                    l.part_name.empty() ? "" : " " + in_quotes(l.part_name),
+                                    l.prefix.empty() ? "" : ", layer ", l.prefix.empty() ? "" : in_quotes(l.prefix)));
+}
+
 // What an image knows of itself, and a warning when it is marked.
 int print_image_info(const std::string& path) {
-  const LayersResult read = read_layers(path);
-  if (!read.image) {
+  const PartsResult read = read_parts(path);
+  if (!read.error.empty()) {
     tell("etendue: {}: {}\n", path, read.error);
     return kBadInput;
   }
-  const LayeredImage& image = *read.image;
-  answer("{:<26}{}x{} at {},{} of {}x{}\n{:<26}{}\n", "pixels", image.width, image.height, image.x, image.y,
-         image.full_width, image.full_height, "channels", fmt::join(image.channels, " "));
-  constexpr std::string_view kOurs = "etendue:";
-  std::map<std::string, std::string> entries;
-  for (const auto& [name, value] : image.metadata)
-    if (name.compare(0, kOurs.size(), kOurs) == 0)
-      entries[name.substr(kOurs.size())] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-  if (const auto provenance = read_provenance(image))
-    entries["strongest"] =
-        fmt::format("{} samples remembered (etendue replay {} --fireflies 10)", provenance->strongest.size(), path);
-  for (const auto& [name, text] : entries) answer("{:<26}{}\n", name, text);
-  if (const auto invalid = entries.find("invalid_samples"); invalid != entries.end() && invalid->second != "none")
-    tell("etendue: warning: {}: samples were invalid ({}) and were taken for black\n", path, invalid->second);
+  const bool many = read.parts.size() > 1;
+  if (many) {
+    answer_row("parts", fmt::format("{}", read.parts.size()));
+    print_choice(read.parts);
+  }
+  Entries first;
+  std::string invalid_samples;
+  for (size_t i = 0; i < read.parts.size(); ++i) {
+    const ImagePart& part = read.parts[i];
+    if (many) answer_row(fmt::format("part {}", i + 1), part.name.empty() ? "without a name" : in_quotes(part.name));
+    print_part(part);
+    const Entries entries = entries_of(part, path);
+    if (const auto invalid = entries.find("invalid_samples"); invalid != entries.end() && invalid->second != "none")
+      invalid_samples = invalid->second;
+    if (i > 0 && entries == first) continue;  // programs that split a picture repeat its metadata
+    for (const auto& [name, text] : entries) answer_row(name, text);
+    if (i == 0) first = entries;
+  }
+  if (!invalid_samples.empty())
+    tell("etendue: warning: {}: samples were invalid ({}) and were taken for black\n", path, invalid_samples);
   return kOk;
 }
 
@@ -101,7 +143,7 @@ void add_info(CLI::App& app, Run& run) {
   command->footer(
       "Examples:\n"
       "  etendue info scene.pbrt --size 3840x2160    memory of a larger film\n"
-      "  etendue info picture.exr                    how an image was made");
+      "  etendue info picture.exr                    its parts and channels, and how it was made");
   command->callback([args, &run] {
     run = [args]() -> int {
       if (is_layered_path(args->scene)) return print_image_info(args->scene);

@@ -21,7 +21,7 @@ std::string output_of_film(std::string filename) {
 }  // namespace
 
 LoadedScene::LoadedScene(const SceneArguments& args, const std::vector<View>& views)
-    : overrides_(args.overrides), diagnostics_(args.allow_unsupported) {
+    : overrides_(args.overrides), diagnostics_(args.allow_unsupported, args.limits) {
   const auto start = std::chrono::steady_clock::now();
   description_ = load_scene(args.scene, diagnostics_);
   const ViewDescription own = description_;

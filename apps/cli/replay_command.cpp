@@ -15,7 +15,7 @@ namespace etd::cli {
 namespace {
 
 struct Arguments : SceneArguments {
-  std::string moved_scene;
+  std::string moved_scene, layer;
   std::optional<std::pair<int, int>> pixel;
   std::optional<uint32_t> sample, fireflies;
   bool verbose = false, json = false;
@@ -69,20 +69,41 @@ SceneArguments parse_options(const Provenance& image, const std::string& scene) 
   return *args;
 }
 
+// What the image, or the part of it that is meant, says of its render. Nothing where it says nothing.
+std::optional<Provenance> find_provenance(const Arguments& args, std::string& error) {
+  const PartsResult read = read_parts(args.scene);
+  if (!read.error.empty()) return error = fmt::format("{}: {}", args.scene, read.error), std::nullopt;
+  std::optional<Provenance> found;
+  std::vector<std::string> names;
+  bool is_known = args.layer.empty(), differs = false;
+  for (const ImagePart& part : read.parts) {
+    names.push_back(part.name);
+    if (!args.layer.empty() && part.name != args.layer) continue;
+    is_known = true;
+    std::optional<Provenance> one = read_provenance(part);
+    if (!one) continue;
+    differs = differs || (found && !(*one == *found));
+    if (!found) found = std::move(one);
+  }
+  if (!is_known)
+    error = fmt::format("{}: it has no part \"{}\", but \"{}\"", args.scene, args.layer, fmt::join(names, "\", \""));
+  else if (differs)
+    error = fmt::format("{}: its parts \"{}\" were rendered in different ways\n  --layer NAME says which one to take",
+                        args.scene, fmt::join(names, "\", \""));
+  return found;
+}
+
 Task make_task(const Arguments& args) {
   Task task;
   if (!is_layered_path(args.scene)) {
     task.scene = args;
+    if (!args.layer.empty()) task.error = "--layer is for images of several parts: a scene has none";
     if (!args.moved_scene.empty()) task.error = "--scene is for images: a scene has been given already";
     if (args.fireflies) task.error = "--fireflies takes an image that etendue rendered, as in picture.exr";
     return task;
   }
-  const LayersResult read = read_layers(args.scene);
-  if (!read.image) {
-    task.error = fmt::format("{}: {}", args.scene, read.error);
-    return task;
-  }
-  task.image = read_provenance(*read.image);
+  task.image = find_provenance(args, task.error);
+  if (!task.error.empty()) return task;
   if (!task.image)
     task.error = fmt::format(
         "{}: its metadata do not say how etendue rendered it, so its samples cannot be drawn again", args.scene);
@@ -168,7 +189,10 @@ int replay(const Arguments& args) {
   Task task = make_task(args);
   if (!task.error.empty()) return fail(task.error);
 
-  Diagnostics diagnostics(task.scene.allow_unsupported, args.limits);
+  // Limits of this command stand before those that the image keeps.
+  for (const std::string& limit : changed_limits(args.limits))
+    if (const std::string problem = set_limit(task.scene.limits, limit); !problem.empty()) return fail(problem);
+  Diagnostics diagnostics(task.scene.allow_unsupported, task.scene.limits);
   const auto prepared = prepare_render(load_scene(task.scene, diagnostics), task.scene.overrides, diagnostics);
   print_diagnostics(diagnostics);
   if (!prepared) return kBadInput;
@@ -211,6 +235,7 @@ void add_replay(CLI::App& app, Run& run) {
       ->type_name("N");
   command->add_flag("--verbose", args->verbose, "with --fireflies: every path vertex by vertex too");
   command->add_flag("--json", args->json, "for programs: one object, or a list of them");
+  command->add_option("--layer", args->layer, "which part of an image that has several renders")->type_name("NAME");
   command->add_option("--scene", args->moved_scene, "where an image's scene is now")->type_name("FILE");
   add_override_options(*command, args);
   command->footer(kExamples);

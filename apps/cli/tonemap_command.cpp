@@ -61,16 +61,15 @@ int tonemap(const Arguments& args) {
   if (args.alpha) {
     if (const std::string problem = check_alpha_path(args.output); !problem.empty())
       return fail(fmt::format("cannot write {} with --alpha: {}", args.output, problem));
-    if (!args.layer.empty()) return fail("--alpha is that of the picture: a layer has none of its own");
   }
 
-  const LayersResult read = read_any_layers(args.input);
+  const LayersResult read = read_any_layers(args.input, args.layer);
   if (!read.image) return fail(fmt::format("{}: {}", args.input, read.error));
   CutOut picture;
   if (args.alpha) {
-    picture = cut_out(*read.image);
+    picture = read.layer.empty() ? cut_out(*read.image) : cut_out_layer(*read.image, read.layer);
   } else {
-    LayerResult layer = layer_rgb(*read.image, args.layer);
+    LayerResult layer = layer_rgb(*read.image, read.layer);
     picture.rgb = std::move(layer.rgb), picture.error = std::move(layer.error);
   }
   if (!picture.error.empty()) return fail(fmt::format("{}: {}", args.input, picture.error));
@@ -116,7 +115,10 @@ void add_tonemap(CLI::App& app, Run& run) {
                    "the light that becomes white: a colour temperature from 1500 to 25000 K (6504 changes nothing), or "
                    "auto: whatever makes the mean grey")
       ->type_name("K");
-  command->add_option("--layer", args->layer, "direct, indirect, emission, albedo, stderr ... instead of the picture")
+  command
+      ->add_option(
+          "--layer", args->layer,
+          "the part or layer of an EXR to show: direct, indirect, emission, albedo, stderr ... instead of the picture")
       ->type_name("NAME");
   command->add_flag("--alpha", args->alpha, "write a .png of what covers each pixel, with its alpha");
   command->footer(kExamples);

@@ -4,6 +4,7 @@
 
 #include "core/warp.h"
 #include "io/image.h"
+#include "io/layer_param.h"
 #include "io/missing_file.h"
 
 namespace etd {
@@ -38,7 +39,8 @@ std::vector<ParamDecl> Aperture::params() {
        .type = ParamType::kString,
        .doc = "The opening as an image, whose longer side is 2 lensradius and whose values (the mean of R, G and B) "
               "are the density of rays, or one of the shapes gaussian, square, pentagon and star of pbrt's realistic "
-              "camera. (Of Etendue, not of pbrt.)"}};
+              "camera. (Of Etendue, not of pbrt.)"},
+      layer_param("aperture")};
 }
 
 Aperture Aperture::create(const ParamReader& p, const std::filesystem::path& folder, CameraData& data) {
@@ -46,6 +48,7 @@ Aperture Aperture::create(const ParamReader& p, const std::filesystem::path& fol
   const Param* blades = p.given("blades");
   const int corners = p.integer("blades");
   Aperture a;
+  if (!file || is_shape(file->strings[0])) reject_layer_without_file(p, "aperture");
   if (file && corners > 0)
     p.diagnostics().error(blades->loc, "an opening has \"blades\" or an \"aperture\", not both");
   else if (file)
@@ -96,15 +99,16 @@ Aperture Aperture::of_weights(int width, int height, const std::vector<double>& 
 Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::filesystem::path& folder,
                            CameraData& data) {
   const std::string& name = file.strings[0];
-  const auto fail = [&](const std::string& problem) {
-    const std::string missing = missing_file_hint({folder}, name);
+  const auto fail = [&](const std::string& problem, const std::string& hint) {
     p.diagnostics().error(
         file.value_loc, problem,
-        (missing.empty() ? "" : missing + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
+        (hint.empty() ? "" : hint + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
     return Aperture();
   };
-  const ImageResult result = read_finite_image(folder / name, {{}, {}, p.diagnostics().limits()});
-  if (!result.image) return fail(fmt::format("cannot read image \"{}\": {}", name, result.error));
+  const ImageResult result = read_finite_image(folder / name, {{}, layer_name(p), p.diagnostics().limits()});
+  if (!result.image)
+    return fail(fmt::format("cannot read image \"{}\": {}", name, result.error),
+                result.needs_layer ? kLayerHint : missing_file_hint({folder}, name));
   for (const std::string& note : result.notes)
     p.diagnostics().note(file.value_loc, fmt::format("image \"{}\": {}", name, note));
   const Image& image = *result.image;
@@ -118,7 +122,7 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
       weights.push_back(std::max(0.0, sum / colours));
       total += weights.back();
     }
-  if (!(total > 0)) return fail(fmt::format("image \"{}\" can't be an opening: it is black", name));
+  if (!(total > 0)) return fail(fmt::format("image \"{}\" can't be an opening: it is black", name), {});
   return of_weights(image.width(), image.height(), weights, data);
 }
 

@@ -1,5 +1,7 @@
 #include "io/cut_out.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace etd {
@@ -53,6 +55,15 @@ CutOut cut_out(const LayeredImage& image) {
   result.note =
       "it was rendered without --alpha, so coverage is taken for alpha: mirrors and clear glass are missing where they "
       "show the background, and lamps have dark edges before a bright one";
+  return result;
+}
+
+CutOut cut_out_layer(const LayeredImage& image, const std::string& layer) {
+  const std::string prefix = layer.empty() ? std::string() : layer + ".";
+  const Channels channels = find_channels(image, prefix, (prefix + "A").c_str());
+  if (complete(channels)) return take(image, channels);
+  CutOut result;
+  result.error = fmt::format("the layer \"{}\" has no alpha: channels R, G, B and A of its own", layer);
   return result;
 }
 

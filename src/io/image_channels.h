@@ -1,5 +1,4 @@
-// Which part, layer and channels of an image file make the picture: EXR files hold many, and taking the first may mean
-// to look at a depth as if it were a colour.
+// Which channels of an image file make the picture, of the part and layer that is meant (io/layer_choice.h).
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -8,6 +7,8 @@
 #include <vector>
 
 namespace etd {
+
+constexpr int kMostParts = 1000;  // of an EXR file that are looked at
 
 struct ChannelChoice {
   int part = 0;

@@ -59,13 +59,30 @@ LayeredImage all_rows(const RowImage& image);
 std::string write_layers(const std::filesystem::path& path, const RowImage& image);
 std::string write_layers(const std::filesystem::path& path, const LayeredImage& image);
 
-// Every channel of an EXR's first part as floats. Of the metadata those that are a string, int, float or double, which
-// includes what EXR itself requires (compression, PixelAspectRatio ...); EXR does not keep their order.
+// What an EXR says of one of its parts. Of the metadata those that are a string, int, float or double, which includes
+// what EXR itself requires (compression, PixelAspectRatio ...); EXR does not keep their order.
+struct ImagePart : ImageHeader {
+  std::string name;   // empty: it has none
+  bool deep = false;  // any number of values in each pixel, which is not supported
+
+  bool covers_same_pixels(const ImageHeader& other) const;
+};
+struct PartsResult {
+  std::vector<ImagePart> parts;  // at least one unless there is an error
+  std::string error;
+};
+// Every part of an EXR, without its pixels.
+PartsResult read_parts(const std::filesystem::path& path);
+
+// Every channel of one part of an EXR as floats, with the part's metadata, and, if they are wanted, those of the other
+// parts that cover the same pixels: under their own names if these name a layer, otherwise as "PART.NAME".
 struct LayersResult {
   std::optional<LayeredImage> image;
   std::string error;
+  std::string layer;        // of `image`, where one was chosen: what layer_rgb() wants
+  bool is_picture = false;  // that layer is what is chosen when none is named
 };
-LayersResult read_layers(const std::filesystem::path& path);
+LayersResult read_layers(const std::filesystem::path& path, size_t part = 0, bool with_others = true);
 
 // Writes linear Rec.709, three floats a pixel, rows from the top. By the path's ending: .png, .jpg and .jpeg hold
 // 8 bits, values times 2^exposure through the sRGB curve, clamped; .hdr (negative values become 0, no other loss of

@@ -18,20 +18,23 @@ std::string_view layer_of(std::string_view channel) {
 }
 
 // The indices of the channels that show a layer; empty when they make no picture.
-std::vector<int> picture_channels(const LayeredImage& image, std::string_view layer) {
-  const std::string prefix = layer.empty() ? std::string() : std::string(layer) + ".";
+std::vector<int> picture_channels(const LayeredImage& image, std::string_view name) {
+  std::vector<PartLayer> layers;
+  add_layers(0, {}, image.channels, layers);
+  const auto layer = std::find_if(layers.begin(), layers.end(), [&](const PartLayer& l) { return l.prefix == name; });
+  if (layer == layers.end()) return {};
   using Names = std::array<const char*, 3>;
   for (const Names& names : {Names{"R", "G", "B"}, Names{"X", "Y", "Z"}}) {
     std::vector<int> found;
-    for (const char* name : names)
-      if (const int i = image.find(prefix + name); i >= 0) found.push_back(i);
+    for (const char* n : names)
+      if (const int i = layer->find(n); i >= 0) found.push_back(i);
     if (found.size() == 3) return found;
   }
-  std::vector<int> all;
-  for (size_t i = 0; i < image.channels.size(); ++i)
-    if (layer_of(image.channels[i]) == layer) all.push_back(static_cast<int>(i));
-  if (all.size() != 1) return {};
-  return {all[0], all[0], all[0]};
+  if (layer->channels.size() == 1) return std::vector<int>(3, layer->channels[0]);
+  // Grey with alpha; other channels beside Y may be its chroma.
+  const int y = layer->find("Y");
+  if (layer->channels.size() == 2 && y >= 0 && layer->find("A") >= 0) return std::vector<int>(3, y);
+  return {};
 }
 
 std::string no_such_layer(const LayeredImage& image, std::string_view layer) {
@@ -50,12 +53,45 @@ std::string no_such_layer(const LayeredImage& image, std::string_view layer) {
   return text + (layers.empty() ? "\n  the file has no layers" : fmt::format("\n  valid: {}", fmt::join(layers, ", ")));
 }
 
+// What to add to an error of choose_layer().
+std::string naming_hint(const std::vector<PartLayer>& layers, const std::string& layer) {
+  if (layer.empty()) return "\n  --layer NAME says which one to take";
+  std::vector<std::string_view> names;
+  for (const PartLayer& l : layers) {
+    if (l.is_called(layer)) return "\n  PART.LAYER says which one to take";
+    for (const std::string* name : {&l.prefix, &l.part_name})
+      if (!name->empty()) names.push_back(*name);
+  }
+  const std::string_view near = nearest_name(layer, names);
+  return near.empty() ? std::string() : fmt::format("\n  did you mean \"{}\"?", near);
+}
+
+LayersResult read_chosen_layers(const std::filesystem::path& path, const std::string& layer) {
+  const PartsResult read = read_parts(path);
+  if (!read.error.empty()) return {{}, read.error, {}, false};
+  std::vector<PartLayer> layers;
+  const LayerChoice chosen = choose_picture(read.parts, layers, layer);
+  if (!chosen.layer) return {{}, chosen.error + naming_hint(layers, layer), {}, false};
+  const bool is_picture = layer.empty() || choose_layer(layers, {}).layer == chosen.layer;
+  LayersResult result = read_layers(path, static_cast<size_t>(chosen.layer->part), is_picture);
+  result.layer = chosen.layer->prefix;
+  result.is_picture = is_picture;
+  return result;
+}
+
 }  // namespace
 
-LayersResult read_any_layers(const std::filesystem::path& path) {
-  if (is_layered_path(path)) return read_layers(path);
+LayerChoice choose_picture(const std::vector<ImagePart>& parts, std::vector<PartLayer>& layers,
+                           const std::string& layer) {
+  layers.clear();
+  for (size_t i = 0; i < parts.size(); ++i) add_layers(static_cast<int>(i), parts[i].name, parts[i].channels, layers);
+  return choose_layer(layers, layer);
+}
+
+LayersResult read_any_layers(const std::filesystem::path& path, const std::string& layer) {
+  if (is_layered_path(path)) return read_chosen_layers(path, layer);
   const ImageResult read = read_image(path);
-  if (!read.image) return {{}, read.error};
+  if (!read.image) return {{}, read.error, {}, false};
   const Image& from = *read.image;
   LayeredImage image;
   image.width = image.full_width = from.width();
@@ -65,7 +101,7 @@ LayersResult read_any_layers(const std::filesystem::path& path) {
   for (int y = 0; y < from.height(); ++y)
     for (int x = 0; x < from.width(); ++x)
       for (int c = 0; c < 3; ++c) image.pixels.push_back(from.texel(x, y, from.channels() == 1 ? 0 : c));
-  return {std::move(image), {}};
+  return {std::move(image), {}, layer, layer.empty()};
 }
 
 LayerResult layer_rgb(const LayeredImage& image, std::string_view layer) {

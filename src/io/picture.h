@@ -8,6 +8,7 @@
 
 #include "core/bounds.h"
 #include "io/image_write.h"
+#include "io/layer_choice.h"
 
 namespace etd {
 
@@ -18,8 +19,14 @@ struct Picture {
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
-// Every channel of an EXR, or those of another image file (read_image() lists the formats) as linear R, G and B.
-LayersResult read_any_layers(const std::filesystem::path& path);
+// The channels of an EXR's part or layer of that name, with an empty name of the one that is the picture
+// (io/layer_choice.h); beside the picture those of all other parts that cover the same pixels. An error that lists
+// parts and layers where there is not one to choose. Of another image file (read_image() lists the formats) linear R, G
+// and B.
+LayersResult read_any_layers(const std::filesystem::path& path, const std::string& layer = {});
+// Which part or layer read_any_layers() takes when none is named, and the error where there is not one to choose.
+LayerChoice choose_picture(const std::vector<ImagePart>& parts, std::vector<PartLayer>& layers,
+                           const std::string& layer = {});
 
 // Three values a pixel, or why there are none.
 struct LayerResult {

@@ -1,5 +1,7 @@
 #include "materials/surface_detail.h"
 
+#include "io/layer_param.h"
+
 namespace etd {
 
 std::vector<ParamDecl> SurfaceDetail::params() {
@@ -11,15 +13,19 @@ std::vector<ParamDecl> SurfaceDetail::params() {
       {.name = "normalmap",
        .type = ParamType::kImageTexture,
        .doc = "Image of normals as (n + 1) / 2: red tilts towards growing u, green towards growing v, also where uv "
-              "or the surface are mirrored."}};
+              "or the surface are mirrored."},
+      layer_param("normalmap")};
 }
 
 SurfaceDetail SurfaceDetail::create(const ParamReader& p, TextureBuilder& b) {
   SurfaceDetail d;
   d.displacement = b.number(p, "displacement");
-  if (const Param* file = p.given("normalmap")) {
-    d.normal_map = file->kind == ParamKind::kTexture ? b.spectrum(p, "normalmap").texture
-                                                     : b.image_texture(*file, "linear", p.diagnostics());
+  const Param* file = p.given("normalmap");
+  const bool is_texture = file && file->kind == ParamKind::kTexture;
+  if (!file || is_texture) reject_layer_without_file(p, "normalmap");
+  if (file) {
+    d.normal_map = is_texture ? b.spectrum(p, "normalmap").texture
+                              : b.image_texture(*file, "linear", layer_name(p), p.diagnostics());
     if (d.displacement.texture >= 0)
       p.diagnostics().warning(file->loc, "a material with a normal map ignores its \"displacement\"");
   }

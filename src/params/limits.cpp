@@ -87,6 +87,14 @@ std::string set_limit(Limits& limits, std::string_view text) {
   return {};
 }
 
+std::vector<std::string> changed_limits(const Limits& limits) {
+  std::vector<std::string> texts;
+  for (const LimitDecl& d : kLimits)
+    if (limits.*(d.value) != Limits().*(d.value))
+      texts.push_back(fmt::format("{}={}", d.name, limit_value_text(d, limits.*(d.value))));
+  return texts;
+}
+
 std::string describe_limits() {
   std::string text;
   for (const LimitDecl& d : kLimits)

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etd {
 
@@ -42,6 +43,8 @@ std::string limit_value_text(const LimitDecl& decl, uint64_t value);
 std::string limit_text(const Limits& limits, uint64_t Limits::*limit);
 // Sets one from "copies=2000000" or "unpacked=2G". Returns why the text does not do that, or an empty string.
 std::string set_limit(Limits& limits, std::string_view text);
+// What set_limit() would take to make these of the limits that nobody has set: "copies=2000000" and so on.
+std::vector<std::string> changed_limits(const Limits& limits);
 // All of them with their values, for `etendue describe limits`.
 std::string describe_limits();
 

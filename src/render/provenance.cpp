@@ -36,6 +36,10 @@ std::vector<std::string> options(const PreparedRender& prepared, const RenderRes
     list.push_back(std::filesystem::absolute(prepared.camera_file).lexically_normal().string());
   }
   if (prepared.allow_unsupported) list.emplace_back("--allow-unsupported");
+  for (const std::string& limit : changed_limits(prepared.limits)) {
+    list.emplace_back("--limit");
+    list.push_back(limit);
+  }
   return list;
 }
 
@@ -93,7 +97,7 @@ void add_provenance(const PreparedRender& prepared, const FinishedRender& finish
     metadata.emplace_back("etendue:invalid_replay", command(scene, *first, list));
 }
 
-std::optional<Provenance> read_provenance(const LayeredImage& image) {
+std::optional<Provenance> read_provenance(const ImageHeader& image) {
   const auto text = [&image](const char* name) -> std::string {
     const MetadataValue* value = image.find_metadata(std::string("etendue:") + name);
     const std::string* s = value ? std::get_if<std::string>(value) : nullptr;

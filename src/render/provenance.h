@@ -31,8 +31,14 @@ struct Provenance {
   std::string scene_hash, version;
   std::vector<std::string> options;
   std::vector<SampleStrength> strongest;  // without the field `strength`
+
+  // The same render; the strongest samples follow from the rest.
+  bool operator==(const Provenance& other) const {
+    return scene == other.scene && scene_hash == other.scene_hash && version == other.version &&
+           options == other.options;
+  }
 };
 // Nothing when the metadata are not what add_provenance() writes.
-std::optional<Provenance> read_provenance(const LayeredImage& image);
+std::optional<Provenance> read_provenance(const ImageHeader& image);
 
 }  // namespace etd

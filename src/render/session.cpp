@@ -61,6 +61,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   prepared.scene_hash = hash_scene(description, diagnostics.sources());
   prepared.overrides = overrides;
   prepared.allow_unsupported = diagnostics.allow_unsupported();
+  prepared.limits = diagnostics.limits();
   prepared.settings = make_settings(description, overrides, diagnostics);
   const RenderSettings& settings = prepared.settings;
   check_film_memory(settings, diagnostics);

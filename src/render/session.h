@@ -11,6 +11,7 @@
 
 #include "film/film.h"
 #include "integrators/integrator.h"
+#include "params/limits.h"
 #include "render/driver.h"
 #include "render/manifest.h"
 #include "render/output.h"
@@ -27,6 +28,7 @@ struct PreparedRender {
   std::string scene_hash;  // hash_scene()
   RenderOverrides overrides;
   bool allow_unsupported = false;
+  Limits limits;
   std::string substitutes;  // all that stand in for what is not supported, separated by "; "
   RenderSettings settings;
   IdLabels labels;                     // if ids are kept

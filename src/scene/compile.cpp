@@ -217,7 +217,7 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   const Viewpoint view = viewpoint_of(description, options);
-  compile_geometry(description, view, material_of, textures, files.shapes, *scene, diagnostics);
+  compile_geometry(description, view, material_of, textures, files, *scene, diagnostics);
   textures.recentre(scene->origin);
   load_images(options, textures, files, *scene, diagnostics);
 

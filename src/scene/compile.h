@@ -19,6 +19,7 @@ class Scene;
 // then no file is read twice. The description stays where it is.
 struct SceneFiles {
   std::map<const ShapeDesc*, ShapeGeometry> shapes;
+  MeshFiles meshes;
   std::optional<TextureTable> images;  // of textures; nothing else of the table counts
   LightImages light_images;
 };

@@ -39,13 +39,13 @@ struct Space {
 class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const Viewpoint& view, const std::vector<uint32_t>& material_of,
-                   const TextureBuilder& textures, std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene,
-                   Diagnostics& diagnostics)
+                   const TextureBuilder& textures, SceneFiles& files, Scene& scene, Diagnostics& diagnostics)
       : description_(description),
         view_(view),
         material_of_(material_of),
         textures_(textures),
-        loaded_(loaded),
+        loaded_(files.shapes),
+        mesh_files_(files.meshes),
         scene_(scene),
         diagnostics_(diagnostics) {}
 
@@ -69,7 +69,8 @@ class GeometryCompiler {
   // Every shape once, whether it is used or not: a mistake in an unused object is a mistake too.
   void check_shapes() {
     const auto check = [&](const ShapeDesc& s) {
-      if (const ModelDecl* decl = find_model(Family::kShape, s.use.model)) check_params(*decl, s.use, diagnostics_);
+      const ModelDecl* decl = s.mesh ? &read_mesh_decl() : find_model(Family::kShape, s.use.model);
+      if (decl) check_params(*decl, s.use, diagnostics_);
       check_transform(s.to_world, s.use.loc, s.use.model, diagnostics_);
       if (s.area_light >= 0 && is_interface(s))
         diagnostics_.error(s.use.loc, "a shape of material \"interface\" can't be an area light",
@@ -100,7 +101,11 @@ class GeometryCompiler {
   }
 
   void read(const ShapeDesc& s) {
-    auto geometry = make_shape(s.use, description_.folder, diagnostics_);
+    if (s.mesh) {
+      loaded_[&s].mesh = s.mesh;
+      return;
+    }
+    auto geometry = make_shape(s.use, description_.folder, mesh_files_, diagnostics_);
     if (!geometry) return;
     if (s.area_light >= 0 && geometry->mesh && geometry->mesh->motion_steps > 1)
       diagnostics_.error(s.use.loc, "an area light can't be on a mesh that deforms",
@@ -327,6 +332,7 @@ class GeometryCompiler {
   const std::vector<uint32_t>& material_of_;
   const TextureBuilder& textures_;
   std::map<const ShapeDesc*, ShapeGeometry>& loaded_;
+  MeshFiles& mesh_files_;
   Scene& scene_;
   Diagnostics& diagnostics_;
   PlacedShapes placed_;
@@ -339,9 +345,9 @@ class GeometryCompiler {
 }  // namespace
 
 void compile_geometry(const SceneDescription& description, const Viewpoint& view,
-                      const std::vector<uint32_t>& material_of, const TextureBuilder& textures,
-                      std::map<const ShapeDesc*, ShapeGeometry>& loaded, Scene& scene, Diagnostics& diagnostics) {
-  GeometryCompiler(description, view, material_of, textures, loaded, scene, diagnostics).run();
+                      const std::vector<uint32_t>& material_of, const TextureBuilder& textures, SceneFiles& files,
+                      Scene& scene, Diagnostics& diagnostics) {
+  GeometryCompiler(description, view, material_of, textures, files, scene, diagnostics).run();
 }
 
 }  // namespace etd

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/transform.h"
+#include "io/mesh.h"
 #include "params/param.h"
 
 namespace etd {
@@ -30,6 +32,8 @@ struct ShapeDesc {
   int material = -1;    // index into materials; -1: the default diffuse
   int area_light = -1;  // index into area_lights; -1: does not emit
   int part = 0;         // of one thing that is several shapes, which follow each other
+  // What a reader took from a file for a "trianglemesh", which then has no vertices of its own.
+  std::shared_ptr<const MeshData> mesh = nullptr;
 };
 
 struct InstanceDesc {

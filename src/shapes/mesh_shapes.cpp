@@ -33,6 +33,11 @@ const ModelDecl& trianglemesh_decl() {
   return d;
 }
 
+const ModelDecl& read_mesh_decl() {
+  static const ModelDecl d{Family::kShape, "trianglemesh", "Triangles of a file.", {alpha_param()}};
+  return d;
+}
+
 const ModelDecl& bilinearmesh_decl() {
   static const ModelDecl d{
       Family::kShape,
@@ -216,17 +221,27 @@ void report_mesh_problems(std::span<const std::string> problems, std::span<const
   for (const std::string& note : notes) diagnostics.note(loc, fmt::format("{}: {}", name, note));
 }
 
-std::optional<MeshData> make_mesh_from_file(const ParamReader& p, const std::filesystem::path& folder) {
+std::shared_ptr<const MeshData> without_unused_vertices(MeshData mesh) {
+  drop_unused_vertices(mesh, corners_of(mesh.triangles));
+  return std::make_shared<const MeshData>(std::move(mesh));
+}
+
+std::shared_ptr<const MeshData> MeshFiles::mesh(const ParamReader& p, const std::filesystem::path& folder) {
   const Param* file = p.given("filename");
   if (!file) return {};
   const std::filesystem::path path = folder / file->strings[0];
   const std::string& model = p.decl().name;
+  std::error_code failed;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(path, failed);
+  const auto [known, is_new] = meshes_.try_emplace({model, failed ? path.string() : place.string()});
+  if (!is_new) return known->second;
   const Limits& limits = p.diagnostics().limits();
   MeshResult result = model == "plymesh"   ? read_ply(path, limits)
                       : model == "offmesh" ? read_off(path, limits)
                                            : read_obj_mesh(path, limits);
   report_mesh_problems(result.problems, result.notes, file->value_loc, folder, file->strings[0], p.diagnostics());
-  return std::move(result.mesh);
+  if (result.mesh) known->second = without_unused_vertices(std::move(*result.mesh));
+  return known->second;
 }
 
 }  // namespace etd

@@ -9,21 +9,22 @@ std::span<const ModelDecl* const> shape_models() {
   return all;
 }
 
-std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder,
+std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder, MeshFiles& files,
                                         Diagnostics& diagnostics) {
   ShapeGeometry made;
-  if (use.model == "trianglemesh") made.mesh = make_trianglemesh({trianglemesh_decl(), use, diagnostics});
+  std::optional<MeshData> mesh;
+  if (use.model == "trianglemesh") mesh = make_trianglemesh({trianglemesh_decl(), use, diagnostics});
   if (use.model == "bilinearmesh") {
     made.patches = make_bilinearmesh({bilinearmesh_decl(), use, diagnostics});
     // Parallelograms are two triangles each, and those are met faster.
-    if (made.patches && (made.mesh = as_triangles(*made.patches))) made.patches.reset();
+    if (made.patches && (mesh = as_triangles(*made.patches))) made.patches.reset();
   }
+  if (mesh) made.mesh = without_unused_vertices(std::move(*mesh));
   for (const ModelDecl* file : {&plymesh_decl(), &offmesh_decl(), &objmesh_decl()})
-    if (use.model == file->name) made.mesh = make_mesh_from_file({*file, use, diagnostics}, folder);
+    if (use.model == file->name) made.mesh = files.mesh({*file, use, diagnostics}, folder);
   for (const ModelDecl* quadric : {&sphere_decl(), &cylinder_decl(), &disk_decl()})
     if (use.model == quadric->name) made.quadric = make_quadric_shape({*quadric, use, diagnostics});
   if (!made.mesh && !made.patches && !made.quadric) return {};
-  if (made.mesh) drop_unused_vertices(*made.mesh, corners_of(made.mesh->triangles));
   if (made.patches) drop_unused_vertices(made.patches->vertices, corners_of(made.patches->patches));
   return made;
 }

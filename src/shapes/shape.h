@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -14,15 +15,15 @@ namespace etd {
 
 // What a shape is before its transform: one of these.
 struct ShapeGeometry {
-  std::optional<MeshData> mesh;
+  std::shared_ptr<const MeshData> mesh;  // that of a file is the same for all shapes that name it
   std::optional<PatchData> patches;
   std::optional<QuadricShape> quadric;
 };
 
 std::span<const ModelDecl* const> shape_models();
 // Makes the shape of a checked use; problems are reported, and nothing comes back when there are any. `folder` is where
-// relative file names start.
-std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder,
+// relative file names start, `files` what has been read of them.
+std::optional<ShapeGeometry> make_shape(const ModelUse& use, const std::filesystem::path& folder, MeshFiles& files,
                                         Diagnostics& diagnostics);
 
 }  // namespace etd

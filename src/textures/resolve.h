@@ -43,7 +43,8 @@ class TextureBuilder {
   SpectrumSource spectrum(const ParamReader& params, std::string_view name) const;
   FloatSource number(const ParamReader& params, std::string_view name) const;
   // A texture of the table that shows an image over uv, bilinear and repeated; -1 and an error when it can't be read.
-  int32_t image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics);
+  int32_t image_texture(const Param& filename, std::string_view encoding, const std::string& layer,
+                        Diagnostics& diagnostics);
   // Index of an image of the table (see ImageStore::add()).
   int32_t image(const Param& filename, std::string_view encoding, const std::string& layer,
                 std::optional<ImageWrap> levels, Diagnostics& diagnostics) {

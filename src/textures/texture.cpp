@@ -89,9 +89,10 @@ std::span<const ModelDecl* const> texture_models() {
   return all;
 }
 
-int32_t TextureBuilder::image_texture(const Param& filename, std::string_view encoding, Diagnostics& diagnostics) {
+int32_t TextureBuilder::image_texture(const Param& filename, std::string_view encoding, const std::string& layer,
+                                      Diagnostics& diagnostics) {
   ImageMapTexture texture;
-  texture.image = images_.add(filename, encoding, {}, {}, diagnostics);
+  texture.image = images_.add(filename, encoding, layer, {}, diagnostics);
   if (texture.image < 0) return -1;
   table_.textures.push_back(Texture(texture));
   return static_cast<int32_t>(table_.textures.size()) - 1;

@@ -18,6 +18,8 @@ constexpr size_t kWorstPixels = 20;
 struct Input {
   std::string name;
   LayeredImage image;
+  std::string layer;       // of the image
+  bool is_picture = true;  // that layer is the picture
   Picture picture;
   EstimateResult estimate;
   PixelBounds window() const { return {image.x, image.y, image.x + image.width, image.y + image.height}; }
@@ -31,13 +33,15 @@ const std::string* metadata_text(const LayeredImage& image, const char* name) {
 }
 
 // Returns what went wrong, or an empty string.
-std::string read_picture(const fs::path& path, const std::string& layer, LayeredImage& image, Picture& picture) {
-  LayersResult read = read_any_layers(path);
+std::string read_picture(const fs::path& path, const std::string& layer, Input& input) {
+  LayersResult read = read_any_layers(path, layer);
   if (!read.image) return fmt::format("{}: {}", path.string(), read.error);
-  image = std::move(*read.image);
-  LayerResult rgb = layer_rgb(image, layer);
+  LayeredImage& image = input.image = std::move(*read.image);
+  input.layer = read.layer;
+  input.is_picture = read.is_picture;
+  LayerResult rgb = layer_rgb(image, input.layer);
   if (!rgb.error.empty()) return fmt::format("{}: {}", path.string(), rgb.error);
-  picture = {image.width, image.height, std::move(rgb.rgb)};
+  input.picture = {image.width, image.height, std::move(rgb.rgb)};
   return {};
 }
 
@@ -49,24 +53,25 @@ fs::path error_beside(const fs::path& path) {
   return fs::exists(beside, ignored) ? beside : fs::path();
 }
 
+// A part that is a render of its own tells its error too.
+bool has_own_error(const Input& input) { return input.layer.empty() && input.image.find("stderr.R") >= 0; }
+
 std::string read_input(const fs::path& path, fs::path error_path, const DifferenceOptions& options, Input& input,
                        std::vector<std::string>& notes) {
   input.name = path.string();
-  if (std::string problem = read_picture(path, options.layer, input.image, input.picture); !problem.empty())
-    return problem;
-  if (!options.layer.empty()) {
+  if (std::string problem = read_picture(path, options.layer, input); !problem.empty()) return problem;
+  if (!options.layer.empty() && !input.is_picture && !has_own_error(input)) {
     input.estimate.problem = "only the picture has an error, its layers have none";
     return {};
   }
   if (error_path.empty() && input.image.find("stderr.R") < 0) error_path = error_beside(path);
   if (error_path.empty()) {
-    input.estimate = make_estimate(input.image);
+    input.estimate = make_estimate(input.image, input.layer);
     return {};
   }
-  LayeredImage image;
-  Picture error;
-  if (std::string problem = read_picture(error_path, "", image, error); !problem.empty()) return problem;
-  input.estimate = make_estimate(input.picture, error, options.runs);
+  Input error;
+  if (std::string problem = read_picture(error_path, "", error); !problem.empty()) return problem;
+  input.estimate = make_estimate(input.picture, error.picture, options.runs);
   if (!input.estimate.estimate) return fmt::format("{}: {}", error_path.string(), input.estimate.problem);
   notes.push_back(fmt::format("the standard error of {} is {}, taken for that of {} runs", path.string(),
                               error_path.string(), options.runs));

@@ -13,7 +13,7 @@ struct DifferenceOptions {
   // Pictures of the standard error of a and b. Where none is named, NAME-stderr.exr beside NAME.exr is taken.
   std::filesystem::path error_a, error_b;
   int runs = 8;                     // behind such a picture
-  std::string layer;                // instead of the picture; layers have no verdict
+  std::string layer;                // or part, instead of the picture; layers have no verdict
   std::optional<PixelBounds> crop;  // in pixels of the full image
   bool correlated = false;          // pixels are, whatever the metadata say
   MetricOptions metrics;

@@ -76,8 +76,8 @@ Estimate make_estimate(const Film& film) {
   return e;
 }
 
-EstimateResult make_estimate(const LayeredImage& image) {
-  const LayerResult picture = layer_rgb(image, ""), error = layer_rgb(image, "stderr");
+EstimateResult make_estimate(const LayeredImage& image, const std::string& layer) {
+  const LayerResult picture = layer_rgb(image, layer), error = layer_rgb(image, "stderr");
   if (!picture.error.empty()) return {{}, picture.error};
   if (!error.error.empty()) return {{}, "it has no layer \"stderr\" that tells its error"};
   const std::optional<int> spp = metadata_number(image, "etendue:spp"),
@@ -93,9 +93,9 @@ EstimateResult make_estimate(const LayeredImage& image) {
   if (*spp < 2 || !set_variance(e, error.rgb))
     return {{}, "it has pixels with a single sample, whose error is unknown"};
   for (int r = 0; r < *replicates; ++r) {
-    const LayerResult layer = layer_rgb(image, fmt::format("replicate{}", r));
-    if (!layer.error.empty()) break;
-    e.replicates.push_back(to_pixels(layer.rgb));
+    const LayerResult replicate = layer_rgb(image, fmt::format("replicate{}", r));
+    if (!replicate.error.empty()) break;
+    e.replicates.push_back(to_pixels(replicate.rgb));
   }
   return {std::move(e), {}};
 }

@@ -37,8 +37,9 @@ struct EstimateResult {
   std::string problem;
 };
 // The picture of a file that Etendue wrote: error from its layer `stderr`, degrees of freedom from its metadata,
-// replicates from the layers `replicate0`, `replicate1`, ... when it has them.
-EstimateResult make_estimate(const LayeredImage& image);
+// replicates from the layers `replicate0`, `replicate1`, ... when it has them. `layer`: where the picture is
+// (layer_rgb()).
+EstimateResult make_estimate(const LayeredImage& image, const std::string& layer = {});
 // A picture whose standard error is another picture, the spread of `runs` independent runs.
 EstimateResult make_estimate(const Picture& picture, const Picture& standard_error, int runs);
 // Exact values, the same in each pixel.

@@ -163,34 +163,32 @@ void note_losses(const ObjMaterials& materials, SourceLoc loc, const std::string
 
 }  // namespace
 
-ModelUse trianglemesh_use(const MeshData& mesh, SourceLoc loc) {
-  std::vector<double> positions, normals, uvs;
-  std::vector<int32_t> indices;
-  positions.reserve(3 * mesh.positions.size());
-  for (const Point3d& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
-  for (const Vec3& n : mesh.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
-  for (const Vec2& uv : mesh.uvs) uvs.insert(uvs.end(), {uv.x, uv.y});
-  indices.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (const uint32_t i : t) indices.push_back(static_cast<int32_t>(i));
-  ModelUse use{"trianglemesh", {}, loc};
-  use.params.push_back(number_param("P", std::move(positions), ParamKind::kPoint3));
-  use.params.push_back(integer_param("indices", std::move(indices)));
-  if (!normals.empty()) use.params.push_back(number_param("N", std::move(normals), ParamKind::kNormal));
-  if (!uvs.empty()) use.params.push_back(number_param("uv", std::move(uvs), ParamKind::kPoint2));
-  for (Param& p : use.params) p.loc = p.value_loc = loc;
-  return use;
+ObjFile::ObjFile(ObjResult result) : obj(std::move(result)) {
+  for (ObjPart& part : obj.parts) meshes.push_back(std::make_shared<const MeshData>(std::exchange(part.mesh, {})));
 }
 
-std::vector<ShapeDesc> add_obj(ObjResult obj, const std::filesystem::path& file, const ShapeDesc& like,
-                               SceneDescription& scene, Diagnostics& diagnostics) {
+ObjFiles::Found ObjFiles::read(const Param& name, const std::filesystem::path& folder, Diagnostics& diagnostics) {
+  const std::filesystem::path path = folder / name.strings[0];
+  std::error_code failed;
+  std::filesystem::path place = std::filesystem::weakly_canonical(path, failed);
+  if (failed) place = path;
+  if (const auto known = files_.find(place); known != files_.end()) return {known->second, false};
+  const ObjFile& file = files_.emplace(place, read_obj(path, diagnostics.limits())).first->second;
+  report_mesh_problems(file.obj.problems, file.obj.notes, name.value_loc, folder, name.strings[0], diagnostics);
+  return {file, true};
+}
+
+std::vector<ShapeDesc> add_obj(const ObjFile& from, const std::filesystem::path& file, const ShapeDesc& like,
+                               bool noted, SceneDescription& scene, Diagnostics& diagnostics) {
   const SourceLoc loc = like.use.loc;
+  const ObjResult& obj = from.obj;
   ObjMaterials materials(obj, file, like, scene);
   std::vector<ShapeDesc> shapes;
-  for (ObjPart& part : obj.parts) {
+  for (const ObjPart& part : obj.parts) {
     ShapeDesc shape = like;
     shape.part = static_cast<int>(shapes.size());
-    shape.use = trianglemesh_use(std::exchange(part.mesh, {}), loc);
+    shape.use = {"trianglemesh", {}, loc};
+    shape.mesh = from.meshes[shapes.size()];
     if (const int index = materials.index(part.material); index >= 0) shape.material = index;
     // The shape's own alpha is for all of it.
     if (const Param* given = like.use.find("alpha"))
@@ -205,19 +203,18 @@ std::vector<ShapeDesc> add_obj(ObjResult obj, const std::filesystem::path& file,
     }
     shapes.push_back(std::move(shape));
   }
-  note_losses(materials, loc, file.string(), diagnostics);
+  if (noted) note_losses(materials, loc, file.string(), diagnostics);
   return shapes;
 }
 
-std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, Diagnostics& diagnostics) {
+std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, ObjFiles& files,
+                                      Diagnostics& diagnostics) {
   const ParamReader p(objmesh_decl(), shape.use, diagnostics);
   const Param* file = p.given("filename");
   if (!file || !p.boolean("materials")) return {std::move(shape)};
-  ObjResult obj = read_obj(scene.folder / file->strings[0], diagnostics.limits());
-  report_mesh_problems(obj.problems, obj.notes, file->value_loc, scene.folder, file->strings[0], diagnostics);
-  if (!obj.problems.empty()) return {};
-  const std::string name = file->strings[0];
-  return add_obj(std::move(obj), name, shape, scene, diagnostics);
+  const ObjFiles::Found found = files.read(*file, scene.folder, diagnostics);
+  if (!found.file.obj.problems.empty()) return {};
+  return add_obj(found.file, file->strings[0], shape, found.is_new, scene, diagnostics);
 }
 
 }  // namespace etd

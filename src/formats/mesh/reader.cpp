@@ -17,12 +17,11 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kEndings = {".obj", ".off", ".ply"};
 
-std::optional<MeshData> read_plain_mesh(const std::filesystem::path& file, const std::string& ending,
-                                        Diagnostics& diagnostics) {
+std::shared_ptr<const MeshData> read_plain_mesh(const std::filesystem::path& file, const std::string& ending,
+                                                Diagnostics& diagnostics) {
   MeshResult result = ending == ".ply" ? read_ply(file, diagnostics.limits()) : read_off(file, diagnostics.limits());
   report_mesh_problems(result.problems, result.notes, {}, {}, file.string(), diagnostics);
-  if (result.mesh) drop_unused_vertices(*result.mesh, corners_of(result.mesh->triangles));
-  return std::move(result.mesh);
+  return result.mesh ? without_unused_vertices(std::move(*result.mesh)) : nullptr;
 }
 
 // The world around the mesh: a frame whose y is up and whose size is the mesh's.
@@ -43,18 +42,17 @@ Stage make_stage(const std::vector<ShapeDesc>& shapes) {
   Bounds3 bounds;
   const auto for_each = [&](const auto& f) {
     for (const ShapeDesc& s : shapes) {
-      const std::vector<double>& x = s.use.find("P")->numbers;
-      for (size_t i = 0; i + 2 < x.size(); i += 3) f(Point3d{x[i], x[i + 1], x[i + 2]});
+      for (const Point3d& p : s.mesh->positions) f(p);
     }
   };
-  for_each([&](Point3d p) { bounds.extend(p); });
+  for_each([&](const Point3d& p) { bounds.extend(p); });
   Stage stage;
   if (bounds.empty()) return stage;
   const Vec3d size = bounds.hi - bounds.lo;
   stage.z_up = size.z > 1.4 * std::max(size.x, size.y);
   stage.center = bounds.center();
   double r2 = 0;
-  for_each([&](Point3d p) { r2 = std::max(r2, dot(p - stage.center, p - stage.center)); });
+  for_each([&](const Point3d& p) { r2 = std::max(r2, dot(p - stage.center, p - stage.center)); });
   if (r2 > 0) stage.radius = std::sqrt(r2);
   stage.lowest = -0.5 * (stage.z_up ? size.z : size.y);
   return stage;
@@ -84,7 +82,8 @@ void add_surroundings(const Stage& stage, SceneDescription& scene) {
     ground.positions.push_back(stage.place(x, height, z));
   ground.triangles = {{0, 1, 2}, {0, 2, 3}};
   scene.materials.push_back({"", {"diffuse", {rgb_param("reflectance", {0.4f, 0.4f, 0.4f})}, {}}});
-  scene.shapes.push_back({trianglemesh_use(ground, {}), {}, false, static_cast<int>(scene.materials.size()) - 1, -1});
+  scene.shapes.push_back({{"trianglemesh", {}, {}}, {}, false, static_cast<int>(scene.materials.size()) - 1, -1});
+  scene.shapes.back().mesh = std::make_shared<const MeshData>(std::move(ground));
 
   const Point3d lamp = stage.place(-2.6 * r, 3.4 * r, 2.4 * r);
   scene.materials.push_back({"", {"diffuse", {rgb_param("reflectance", {0, 0, 0})}, {}}});
@@ -123,10 +122,11 @@ SceneDescription read_mesh_scene(const std::filesystem::path& file, Diagnostics&
   if (ending == ".obj") {
     ObjResult obj = read_obj(file, diagnostics.limits());
     report_mesh_problems(obj.problems, obj.notes, {}, {}, file.string(), diagnostics);
-    scene.shapes = add_obj(std::move(obj), file.filename(), grey, scene, diagnostics);
-  } else if (const auto mesh = read_plain_mesh(file, ending, diagnostics)) {
+    scene.shapes = add_obj(ObjFile(std::move(obj)), file.filename(), grey, true, scene, diagnostics);
+  } else if (auto mesh = read_plain_mesh(file, ending, diagnostics)) {
     scene.shapes.push_back(grey);
-    scene.shapes.back().use = trianglemesh_use(*mesh, {});
+    scene.shapes.back().use.model = "trianglemesh";
+    scene.shapes.back().mesh = std::move(mesh);
   }
   const Stage stage = make_stage(scene.shapes);
   add_camera(stage, scene);

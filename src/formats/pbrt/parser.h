@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scoped_map.h"
+#include "formats/mesh/obj_scene.h"
 #include "formats/pbrt/color_values.h"
 #include "formats/pbrt/graphics_state.h"
 #include "formats/pbrt/names.h"
@@ -58,6 +59,7 @@ class Parser {
   TokenStream tokens;
   SceneDescription scene;
   SpectrumFiles spectra;
+  ObjFiles obj_files;
   Names names;
   GraphicsState state;
   // These are what `Attribute` gave, by what it gave them to and by name.

@@ -74,7 +74,8 @@ void shape(Parser& p, const Token& d) {
       p.object >= 0 ? p.scene.objects[static_cast<size_t>(p.object)].shapes : p.scene.shapes;
   ShapeDesc shape{std::move(*supported), *to_world, p.state.reverse_orientation, p.state.material, p.state.area_light};
   if (shape.use.model == "objmesh") {
-    for (ShapeDesc& part : expand_objmesh(std::move(shape), p.scene, p.diagnostics)) shapes.push_back(std::move(part));
+    for (ShapeDesc& part : expand_objmesh(std::move(shape), p.scene, p.obj_files, p.diagnostics))
+      shapes.push_back(std::move(part));
   } else {
     shapes.push_back(std::move(shape));
   }
