@@ -10,7 +10,7 @@ namespace etd::cli {
 // 0: done; 1: an internal error, or a verification that failed; 2: something is wrong with what the user gave; 3: done,
 // but with invalid samples, which --strict does not tolerate; 128 + the number of a signal: stopped by it.
 // `diff` has codes of its own.
-enum ExitCode : int { kOk = 0, kInternalError = 1, kFailed = 1, kBadInput = 2, kInvalidSamples = 3 };
+enum ExitCode : int { kOk = 0, kInternalError = 1, kFailed = 1, kBadInput = 2, kInvalidSamples = 3, kCannotTell = 3 };
 
 using Run = std::function<int()>;
 

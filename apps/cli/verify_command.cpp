@@ -127,7 +127,7 @@ int verify_user_scene(const VerifySceneArguments& args) {
     }
   }
   if (interrupts.exit_code() != 0) return interrupts.exit_code();
-  return v->disagrees() ? kFailed : kOk;
+  return v->disagrees() ? kFailed : v->cannot_tell() ? kCannotTell : kOk;
 }
 
 CLI::Option* add_seconds(CLI::App& command, std::optional<double>& to) {

@@ -11,7 +11,8 @@ void InvalidSamples::take_out(const SampleId& id, PixelSample& s) {
   const Spectrum sum = s.emission + s.direct + s.indirect;
   for (const Spectrum& c : {s.emission, s.direct, s.indirect, s.albedo, sum, sum * s.weight})
     for (int i = 0; i < Spectrum::kActive; ++i) look_at(c[i]);
-  for (const float v : {s.normal.x, s.normal.y, s.normal.z, s.depth}) look_at(v);
+  for (const float v : {s.normal.x, s.normal.y, s.normal.z, s.depth, s.position.x, s.position.y, s.position.z})
+    look_at(v);
   ++(has_nan ? nan : has_infinity ? infinite : negative);
   if (!first || id < *first) first = id;
   PixelSample black;

@@ -13,7 +13,7 @@ namespace etd {
 
 // Whether the film may take it. What is not finite stays so in sums; the sign of the filter's weight does not matter.
 inline bool is_sound(const PixelSample& s) {
-  const float rest = s.normal.x + s.normal.y + s.normal.z + s.depth;
+  const float rest = s.normal.x + s.normal.y + s.normal.z + s.depth + s.position.x + s.position.y + s.position.z;
   return is_finite((s.emission + s.direct + s.indirect) * s.weight) && is_finite(s.albedo) && std::isfinite(rest) &&
          min_value(s.emission) >= 0 && min_value(s.direct) >= 0 && min_value(s.indirect) >= 0;
 }

@@ -338,9 +338,9 @@ class SceneVerifier {
 
 }  // namespace
 
-bool SceneVerification::disagrees() const {
+bool SceneVerification::any(Agreement verdict) const {
   return std::any_of(estimators.begin(), estimators.end(),
-                     [](const EstimatorReport& e) { return e.verdict == Agreement::kDisagrees; });
+                     [verdict](const EstimatorReport& e) { return e.verdict == verdict; });
 }
 
 std::string describe_test(const RegionTest& t) {

@@ -55,7 +55,11 @@ struct SceneVerification {
   int width = 0, height = 0;
   std::vector<EstimatorReport> estimators;
   bool complete = true;  // false: interrupted
-  bool disagrees() const;
+  bool disagrees() const { return any(Agreement::kDisagrees); }
+  bool cannot_tell() const { return any(Agreement::kCannotTell); }
+
+ private:
+  bool any(Agreement verdict) const;
 };
 
 using SceneProgress = std::function<void(double share, const std::string& what)>;

@@ -283,6 +283,32 @@ fault(far-things-let-light-through "what lies before the start of a ray from inf
       "${light}/under_a_far_roof")
 edit(integrators/light_path.h [[depth == 1 && emitted->starts_within;]] [[!FAULT && depth == 1 && emitted->starts_within;]])
 
+# ---- photons
+
+set(sppm "Scenes/StatisticalSppm.*")
+fault(photon-radius-not-squared "photons are spread over a disk whose area goes with its radius" "${sppm}")
+edit(integrators/sppm.cpp [[static_cast<double>(kPi) * sqr(static_cast<double>(radius_));]]
+     [[static_cast<double>(kPi) * (FAULT ? static_cast<double>(radius_) : sqr(static_cast<double>(radius_)));]])
+
+fault(photons-per-photon-kept "photons are divided by the number that was kept" "${sppm}")
+edit(integrators/sppm.cpp [[(disk * static_cast<double>(settings_.photons))]]
+     [[(disk * static_cast<double>(FAULT ? grid_.photon_count() : settings_.photons))]])
+
+fault(photons-without-cosine "photons are not divided by the cosine with which they arrive" "${sppm}")
+edit(integrators/sppm.cpp [[v.flux * (1.0f / cosine);]] [[v.flux * (FAULT ? 1.0f : 1.0f / cosine);]])
+
+fault(direct-light-twice "photons bring direct light that is sampled already" "${sppm}")
+edit(integrators/sppm.cpp [[(v.depth == 1 && !settings_.direct_photons)]] [[(!FAULT && v.depth == 1 && !settings_.direct_photons)]])
+
+fault(photon-paths-too-long "events before and behind the photon are not counted together" "${sppm}")
+edit(integrators/sppm.cpp [[depth + photon.events + 1 > settings_.max_depth]] [[!FAULT && depth + photon.events + 1 > settings_.max_depth]])
+
+fault(radius-shrinks-too-fast "the law of the radius is that of its square" "Sppm.*")
+edit(integrators/sppm.cpp [[std::exp(0.5 * log);]] [[std::exp((FAULT ? 1.0 : 0.5) * log);]])
+
+fault(photons-of-one-side-missed "the search looks at the wrong cubes" "PhotonGrid.*")
+edit(integrators/photon_grid.h [[cube(p, -0.5);]] [[cube(p, FAULT ? 0.0 : -0.5);]])
+
 # ---- geometry
 
 fault(normals-as-vectors "normals of instances are mapped like vectors" "Surface.*:Placement.*:Accel.*")
