@@ -305,7 +305,7 @@ TEST(Driver, TheFilmIsShownInTheMidstOfPassesWhileNothingRuns) {
     Onlooker onlooker(probe);
     Film film(kFilm);
     const RenderResult result = render(probe, film, {.spp = 4, .threads = threads}, onlooker);
-    EXPECT_EQ(result.spp, 4u);
+    EXPECT_EQ(result.stopped_by, StoppedBy::kSamples);
     EXPECT_EQ(probe.calls, 2 * 64);
     EXPECT_EQ(onlooker.disturbed, 0);
     if (threads == 1) {

@@ -23,8 +23,9 @@ class NoiseIntegrator : public Integrator {
     for (int y = y0; y < std::min(y0 + tile_, film_.crop.y1); ++y)
       for (int x = x0; x < std::min(x0 + tile_, film_.crop.x1); ++x) {
         Sink::Pixel pixel(sink, x, y);
+        const auto [begin, end] = pass.samples(x, y);
         for (uint32_t r = pass.first_replicate; r < pass.end_replicate; ++r)
-          for (uint32_t i = pass.begin; i < pass.end; ++i) pixel.add(r, i, sample(x, y, r, i));
+          for (uint32_t i = begin; i < end; ++i) pixel.add(r, i, sample(x, y, r, i));
       }
   }
 

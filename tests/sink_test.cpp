@@ -61,7 +61,7 @@ TEST(Sink, SplatsBecomeMeansOverTheLightPathsOfTheWholeImage) {
   for (int y = 0; y < 2; ++y) film.fold_splats(y, 1, 24, 80);
   const PixelSums sums = film.sums(1, 1, 1);
   EXPECT_EQ(sums.count, 3.0);  // 24 paths for 4 x 2 pixels
-  EXPECT_EQ(sums.rays, 10.0);
+  EXPECT_EQ(film.total(1, 1).rays, 10.0);
   // Twice the light for the exposure, a mean over 24 paths.
   EXPECT_NEAR(sums.mean(sums.emission)[0], 2 * 1.5 / 24, 1e-15);
   EXPECT_NEAR(sums.mean(sums.direct)[1], 2 * -1.0 / 24, 1e-15);

@@ -31,6 +31,13 @@ const ModelDecl& LightIntegrator::decl() {
         .min = 1,
         .max = 1 << 20,
         .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
+       {.name = "paths",
+        .type = ParamType::kString,
+        .default_value = std::string("all"),
+        .choices = {"all", "from_camera"},
+        .doc =
+            "Which paths to render: all, or those alone that the integrator path finds too. It misses light of points "
+            "and single directions that a mirror or clear glass is the first to scatter."},
        {.name = "lightsampler",
         .type = ParamType::kString,
         .default_value = std::string("power"),
@@ -51,12 +58,13 @@ std::unique_ptr<Integrator> LightIntegrator::create(const ParamReader& p, const 
   // No path is longer than the deepest component that is kept.
   if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
   s.roulette_depth = p.integer("roulettedepth");
+  s.from_camera = p.string("paths") == "from_camera";
   s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
   return std::make_unique<LightIntegrator>(scene, s, context);
 }
 
 std::vector<Variant> LightIntegrator::variants(const Scene&, int) {
-  return {{.name = "light", .image_of_path = {{"paths", "from_lights"}}}};
+  return {{.name = "light", .set = {{"paths", "from_camera"}}, .image_of_path = {{"paths", "from_lights"}}}};
 }
 
 LightIntegrator::LightIntegrator(const Scene& scene, const LightSettings& settings, const IntegratorContext& context)
@@ -68,6 +76,7 @@ std::string LightIntegrator::bias() const {
   std::string bias = kUnseenByLightPaths;
   if (settings_.indirect)
     bias += fmt::format("; light after more than {} scattering events is left out", settings_.max_depth);
+  if (settings_.from_camera) bias += fmt::format("; {}", kUnseenByCameraPaths);
   return bias;
 }
 
@@ -136,7 +145,8 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
     return true;
   };
   follow_light_path(scene_, uniform_ ? *uniform_ : scene_.light_sampler,
-                    {settings_.max_depth, settings_.roulette_depth}, sampler, rays, at_light, at_vertex);
+                    {settings_.max_depth, settings_.roulette_depth, settings_.from_camera}, sampler, rays, at_light,
+                    at_vertex);
   return rays;
 }
 

@@ -19,6 +19,7 @@ struct LightSettings {
   bool emission = true, direct = true, indirect = true;  // which components are kept
   int roulette_depth = 2;                                // first depth at which paths may be ended early
   LightChoice light_choice = LightChoice::kPower;
+  bool from_camera = false;  // LightPathSettings::from_camera
 };
 
 class LightIntegrator : public Integrator {

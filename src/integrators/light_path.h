@@ -10,9 +10,14 @@
 namespace etd {
 
 struct LightPathSettings {
-  int max_depth = 5;       // vertices at most
-  int roulette_depth = 2;  // vertices after which paths may be ended early
+  int max_depth = 5;         // vertices at most
+  int roulette_depth = 2;    // vertices after which paths may be ended early
+  bool from_camera = false;  // leaves out what no path from the camera finds (kUnseenByCameraPaths)
 };
+
+// What paths from the camera never find, because neither sampling a light nor meeting one does: for the metadata.
+inline constexpr const char* kUnseenByCameraPaths =
+    "light of points and single directions by way of smooth surfaces next to them is left out";
 
 // How a path leaves its light.
 struct LightPathStart {
@@ -90,6 +95,7 @@ void follow_light_path(const Scene& scene, const LightSampler& lights, const Lig
     sampler.set_dimension(dimension + 1);
     const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kImportance, rng);
     if (!s) return;
+    if (settings.from_camera && depth == 1 && light.is_delta() && s->is_delta()) return;
     flux *= s->weight;
     throughput *= max_value(s->weight);
     ray = spawn_ray(surface.point, s->wi, time);

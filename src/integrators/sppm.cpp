@@ -57,6 +57,13 @@ const ModelDecl& SppmIntegrator::decl() {
         .min = 1,
         .max = 1 << 15,
         .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
+       {.name = "paths",
+        .type = ParamType::kString,
+        .default_value = std::string("all"),
+        .choices = {"all", "from_camera"},
+        .doc =
+            "Which paths to render: all, or those alone that the integrator path finds too. It misses light of points "
+            "and single directions that a mirror or clear glass is the first to scatter."},
        {.name = "lightsampler",
         .type = ParamType::kString,
         .default_value = std::string("power"),
@@ -81,14 +88,17 @@ std::unique_ptr<Integrator> SppmIntegrator::create(const ParamReader& p, const S
   s.photons = static_cast<uint64_t>(std::max(0, p.integer("photonsperiteration")));
   s.direct_photons = p.string("directlight") == "photons";
   s.roulette_depth = p.integer("roulettedepth");
+  s.from_camera = p.string("paths") == "from_camera";
   s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
   return std::make_unique<SppmIntegrator>(scene, s, context);
 }
 
 std::vector<Variant> SppmIntegrator::variants(const Scene&, int) {
   const ParameterTexts half{{"radiusscale", "0.5"}};
-  return {{.name = "sppm", .with_half_radius = half},
-          {.name = "sppm, photons alone", .set = {{"directlight", "photons"}}, .with_half_radius = half}};
+  return {{.name = "sppm", .set = {{"paths", "from_camera"}}, .with_half_radius = half},
+          {.name = "sppm, photons alone",
+           .set = {{"paths", "from_camera"}, {"directlight", "photons"}},
+           .with_half_radius = half}};
 }
 
 namespace {
@@ -127,9 +137,10 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmSettings& settings,
 
 std::string SppmIntegrator::bias() const {
   return fmt::format(
-      "photons are spread over {:.4g} m in the first and {:.4g} m in the last iteration, which falls to 0 as "
-      "iterations^(-1/6); light after more than {} scattering events is left out",
-      radius(0), radius(last_), settings_.max_depth);
+             "photons are spread over {:.4g} m in the first and {:.4g} m in the last iteration, which falls to 0 as "
+             "iterations^(-1/6); light after more than {} scattering events is left out",
+             radius(0), radius(last_), settings_.max_depth) +
+         (settings_.from_camera ? fmt::format("; {}", kUnseenByCameraPaths) : "");
 }
 
 double SppmIntegrator::radius(uint64_t i) const {
@@ -184,7 +195,7 @@ void SppmIntegrator::render(const Pass& pass, uint32_t phase, size_t item, Sink&
 
 void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) {
   const uint64_t begin = item * kPhotonsPerItem, end = std::min(begin + kPhotonsPerItem, settings_.photons);
-  const LightPathSettings settings{settings_.max_depth, settings_.roulette_depth};
+  const LightPathSettings settings{settings_.max_depth, settings_.roulette_depth, settings_.from_camera};
   const bool any_kept = settings_.indirect || (settings_.direct && settings_.direct_photons);
   RayCounts rays;
   for (uint64_t k = begin; k < end && any_kept; ++k) {

@@ -21,6 +21,7 @@ struct SppmSettings {
   bool direct_photons = false;                           // photons bring direct light too
   int roulette_depth = 2;                                // first depth at which paths may be ended early
   LightChoice light_choice = LightChoice::kPower;
+  bool from_camera = false;  // LightPathSettings::from_camera
 };
 
 class SppmIntegrator : public Integrator {

@@ -41,8 +41,9 @@ std::optional<Pass> UntilError::next(const SoFar& so_far) {
     ++tests_;
     reached_ = so_far.error <= goal_;
   }
+  if (reached_) return {};
   done_ = pass->end;
-  return reached_ ? std::nullopt : pass;
+  return pass;
 }
 
 // The samples at which the error will be found small enough, if its square goes on falling like 1/n.

@@ -61,6 +61,8 @@ std::span<const UnsupportedParam> unsupported_params() {
       {Family::kCamera, "spherical", "screenwindow", "*", "a spherical camera sees all directions"},
 
       {Family::kFilm, "", "diagonal", "*", "only realistic cameras read it"},
+
+      {Family::kIntegrator, "sppm", "seed", "*", "photons have the sampler's seed"},
   };
   return table;
 }

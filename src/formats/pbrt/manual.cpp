@@ -24,10 +24,19 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-std::string list_of_names(std::span<const std::string_view> names) {
-  std::string out;
-  for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + code(name);
-  return out;
+// "`a`, `b`", with line breaks so that a line that begins with `indent` letters stays within 120.
+std::string list_of_names(std::span<const std::string_view> names, size_t indent = 0) {
+  std::string text;
+  size_t column = indent;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string name = fmt::format("`{}`{}", names[i], i + 1 < names.size() ? "," : "");
+    constexpr size_t kWidth = 119;
+    const bool breaks = column + 1 + name.size() > kWidth;
+    if (i > 0) text += breaks ? '\n' : ' ';
+    column = (breaks ? 0 : column + 1) + name.size();
+    text += name;
+  }
+  return text;
 }
 
 std::string capitalised(std::string_view text) {
@@ -41,7 +50,7 @@ std::string directives_chapter() {
   for (const auto& list : {pbrt::option_directives(), pbrt::transform_directives(), pbrt::world_directives()})
     for (const pbrt::Directive& d : list) names.push_back(d.name);
   std::sort(names.begin(), names.end());
-  return fmt::format("## Directives\n\nAll of them are read: {}.\n", list_of_names(names));
+  return fmt::format("## Directives\n\nAll of them are read: {}.\n", list_of_names(names, 22));
 }
 
 std::string model_section(const ModelDecl& model) {
@@ -121,14 +130,18 @@ std::string pbrt_coverage_markdown() {
   out += directives_chapter() + "\n## Models\n";
   for (const Family family : kAllFamilies)
     for (const ModelDecl* model : all_models(family)) out += model_section(*model);
+  std::vector<std::string_view> as_path;
+  for (const std::string_view name : other_names(Family::kIntegrator))
+    if (our_name(Family::kIntegrator, name) == "path") as_path.push_back(name);
   out += fmt::format(
-      "\n## Other names\n\nRendered with the sampler `sobol`, keeping the number of samples and the seed, with one "
-      "printed\n"
-      "line (`paddedsobol` is the same and prints none): {}.\n\n"
-      "Rendered with the integrator `path`, keeping `maxdepth` and `lightsampler`, with one printed line: {}.\n\n"
-      "`randomization` of a sampler and `Accelerator` are not used and print one line; so do the light samplers `bvh` "
-      "and\n`exhaustive`, for which `power` is taken.\n",
-      list_of_names(other_names(Family::kSampler)), list_of_names(other_names(Family::kIntegrator)));
+      "\n## Other names\n\n"
+      "Rendered with the sampler `sobol`, keeping the number of samples and the seed, with one printed line\n"
+      "(`paddedsobol` is the same and prints none): {}.\n\n"
+      "Rendered with the integrator `path`, keeping what it has of their parameters, with one printed line:\n{}.\n"
+      "`lightpath` is the integrator `light`.\n\n"
+      "`randomization` of a sampler and `Accelerator` are not used and print one line; so do the light samplers `bvh`\n"
+      "and `exhaustive`, for which `power` is taken.\n",
+      list_of_names(other_names(Family::kSampler), 45), list_of_names(as_path));
   out += "\n## Options\n" + options_table();
   out +=
       "\n## Not supported yet\n\nEach use is an error with its place. With `--allow-unsupported` it becomes a warning, "
