@@ -26,10 +26,10 @@ TEST_F(Cli, VerifyModels) {
 TEST_F(Cli, VerifyScene) {
   folder_.write("s.pbrt", kScene);
   const Finished agrees = run("verify scene s.pbrt --spp 64 --json");
-  EXPECT_EQ(agrees.exit_code, 0) << agrees.err;
+  EXPECT_TRUE(agrees.exit_code == 0 || agrees.exit_code == 3) << agrees.err;  // 3: not all can be told
   const auto json = nlohmann::json::parse(agrees.out);
   EXPECT_TRUE(json["passed"].get<bool>());
-  EXPECT_EQ(json["estimators"].size(), 8u);
+  EXPECT_EQ(json["estimators"].size(), 11u);
   EXPECT_TRUE(has(run("verify scene s.pbrt --spp 32").out, "next_event"));
   EXPECT_EQ(run("verify scene nowhere.pbrt").exit_code, 2);
   EXPECT_EQ(run("verify scene s.pbrt --spp 32 --time 1s").exit_code, 2);

@@ -37,9 +37,8 @@ const std::vector<ExrPart>& depth_first() {
   return parts;
 }
 const std::vector<ExrPart>& two_eyes() {
-  static const std::vector<ExrPart> parts = {
-      {"left", kWindow, kWindow, both(rgb(0.25f), rgb(0.5f, "direct.")), ""},
-      {"right", kWindow, kWindow, both(rgb(0.75f), rgb(1, "direct.")), ""}};
+  static const std::vector<ExrPart> parts = {{"left", kWindow, kWindow, both(rgb(0.25f), rgb(0.5f, "direct.")), ""},
+                                             {"right", kWindow, kWindow, both(rgb(0.75f), rgb(1, "direct.")), ""}};
   return parts;
 }
 
@@ -58,9 +57,8 @@ TEST(ImageParts, ThePictureIsChosenAndOtherPartsAreBesideIt) {
   EXPECT_TRUE(picture.is_picture);
   ASSERT_TRUE(picture.image);
   // Those of the same pixels: channels without a layer are called by their part.
-  EXPECT_EQ(picture.image->channels,
-            (std::vector<std::string>{"R", "G", "B", "depth.Z", "direct.R", "direct.G", "direct.B", "stderr.R",
-                                      "stderr.G", "stderr.B"}));
+  EXPECT_EQ(picture.image->channels, (std::vector<std::string>{"R", "G", "B", "depth.Z", "direct.R", "direct.G",
+                                                               "direct.B", "stderr.R", "stderr.G", "stderr.B"}));
   EXPECT_EQ(picture.image->plane("depth.Z"), std::vector<float>(8, 9));
   EXPECT_EQ(picture.image->plane("stderr.B"), std::vector<float>(8, 2.125f));
   const LayersResult depth = read_any_layers(file, "depth");
@@ -94,8 +92,7 @@ TEST(ImageParts, WhereSeveralWouldDoOneIsNamed) {
             "(R, G, B), \"right.direct\" (R, G, B)\n  PART.LAYER says which one to take");
   EXPECT_EQ(first_pixel(read_any_layers(file, "right.direct")), (std::vector<float>{1, 2, 3}));
   const auto none = folder.write("b.exr", exr_bytes({{"", kWindow, kWindow, {flat("U", 1), flat("V", 2)}, ""}}));
-  EXPECT_EQ(layer_rgb(*read_any_layers(none).image, "").error,
-            "the image has not the channels of a picture, but U, V");
+  EXPECT_EQ(layer_rgb(*read_any_layers(none).image, "").error, "the image has not the channels of a picture, but U, V");
   const auto grey = folder.write("c.exr", exr_bytes({{"", kWindow, kWindow, {flat("Y", 1), flat("A", 2)}, ""}}));
   EXPECT_EQ(first_pixel(read_any_layers(grey)), (std::vector<float>{1, 1, 1}));
 }
@@ -119,8 +116,9 @@ TEST_F(ImagePartsCli, TonemapAndDiffChooseAsTexturesDo) {
   for (const std::string command : {"tonemap eyes.exr x.png", "diff eyes.exr eyes.exr", "diff plain.exr eyes.exr"}) {
     const Finished done = run(command);
     EXPECT_EQ(done.exit_code, 2) << command;
-    EXPECT_EQ(done.err, "etendue: eyes.exr: it has several parts or layers, \"left\" (R, G, B), \"right\" (R, G, B)\n"
-                        "  --layer NAME says which one to take\n");
+    EXPECT_EQ(done.err,
+              "etendue: eyes.exr: it has several parts or layers, \"left\" (R, G, B), \"right\" (R, G, B)\n"
+              "  --layer NAME says which one to take\n");
   }
   EXPECT_TRUE(has(run("tonemap a.exr x.png --layer dept").err, "did you mean \"depth\"?"));
   EXPECT_TRUE(has(run("tonemap a.exr x.png --alpha --layer direct").err,
@@ -134,7 +132,8 @@ TEST_F(ImagePartsCli, InfoListsTheParts) {
   EXPECT_EQ(a.exit_code, 0) << a.err;
   for (const char* line :
        {"parts                     5\n", "picture                   part 2 \"beauty\", unless --layer NAME",
-        "part 1                    \"depth\"\npixels                    4x2 at 0,0 of 4x2\nchannels                  Z\n",
+        "part 1                    \"depth\"\npixels                    4x2 at 0,0 of 4x2\nchannels                  "
+        "Z\n",
         "part 5                    \"crop\"\npixels                    2x2 at 0,0 of 4x2\n"})
     EXPECT_TRUE(has(a.out, line)) << line << "\n" << a.out;
   const Finished eyes = run("info eyes.exr");
@@ -155,7 +154,8 @@ TEST_F(ImagePartsCli, ReplayTakesThePartThatKnowsItsRender) {
   const std::string scene = folder_.write("s.pbrt", kScene).string(), one = render_attributes(scene, "1"),
                     two = render_attributes(scene, "2");
   const auto write = [&](const char* name, const std::string& first, const std::string& second) {
-    folder_.write(name, exr_bytes({{"left", kWindow, kWindow, rgb(1), first}, {"right", kWindow, kWindow, rgb(2), second}}));
+    folder_.write(name,
+                  exr_bytes({{"left", kWindow, kWindow, rgb(1), first}, {"right", kWindow, kWindow, rgb(2), second}}));
   };
   write("second.exr", "", two);
   write("same.exr", two, two);
@@ -180,12 +180,12 @@ TEST_F(ImagePartsCli, ReplayTakesThePartThatKnowsItsRender) {
 std::string messages_of(const TempFolder& folder, const std::string& camera, const std::string& material) {
   folder.write("eyes.exr", exr_bytes(two_eyes()));
   Diagnostics diagnostics;
-  const SceneDescription scene = read_pbrt(
-      folder.write("s.pbrt", fmt::format("Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
-                                         "Camera \"perspective\" {}\nWorldBegin\nLightSource \"infinite\"\n"
-                                         "Material \"diffuse\" {}\nShape \"sphere\"\n",
-                                         camera, material)),
-      diagnostics);
+  const SceneDescription scene =
+      read_pbrt(folder.write("s.pbrt", fmt::format("Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+                                                   "Camera \"perspective\" {}\nWorldBegin\nLightSource \"infinite\"\n"
+                                                   "Material \"diffuse\" {}\nShape \"sphere\"\n",
+                                                   camera, material)),
+                diagnostics);
   prepare_render(scene, {}, diagnostics);
   return diagnostics.format_all();
 }
@@ -196,18 +196,18 @@ TEST(ImageParts, NormalMapsAndOpeningsNameTheirs) {
                     opening = lens + "\"string aperture\" ", hint = "\"string layer\" beside the file's name";
   EXPECT_EQ(messages_of(folder, opening + "\"eyes.exr\" \"string layer\" \"left\"", ""), "");
   EXPECT_EQ(messages_of(folder, "", map + "\"eyes.exr\" \"string layer\" \"right.direct\""), "");
-  for (const auto& [camera, material] : std::vector<std::pair<std::string, std::string>>{
-           {opening + "\"eyes.exr\"", ""}, {"", map + "\"eyes.exr\""}}) {
+  for (const auto& [camera, material] :
+       std::vector<std::pair<std::string, std::string>>{{opening + "\"eyes.exr\"", ""}, {"", map + "\"eyes.exr\""}}) {
     const std::string messages = messages_of(folder, camera, material);
     EXPECT_TRUE(has(messages, "it has several parts or layers, \"left\" (R, G, B), \"right\" (R, G, B)")) << messages;
     EXPECT_TRUE(has(messages, hint)) << messages;
   }
   const std::string none = messages_of(folder, opening + "\"eyes.exr\" \"string layer\" \"up\"", "");
   EXPECT_TRUE(has(none, "it has no part or layer \"up\"")) << none;
-  for (const auto& [camera, material, file] : std::vector<std::array<std::string, 3>>{
-           {opening + "\"star\" \"string layer\" \"left\"", "", "aperture"},
-           {"\"string layer\" \"left\"", "", "aperture"},
-           {"", "\"string layer\" \"left\"", "normalmap"}}) {
+  for (const auto& [camera, material, file] :
+       std::vector<std::array<std::string, 3>>{{opening + "\"star\" \"string layer\" \"left\"", "", "aperture"},
+                                               {"\"string layer\" \"left\"", "", "aperture"},
+                                               {"", "\"string layer\" \"left\"", "normalmap"}}) {
     const std::string messages = messages_of(folder, camera, material);
     EXPECT_TRUE(has(messages, "warning: \"layer\" changes nothing without a file as \"" + file + "\"")) << messages;
   }

@@ -150,6 +150,39 @@ TEST(LightTracing, BitsDoNotDependOnThreadsOrCrop) {
   EXPECT_EQ(one.total(0, 0).count, 32.0);
 }
 
+// Each component alone is what it is among all of them; so are paths up to a length.
+TEST(LightTracing, ComponentsAreThoseOfTheWhole) {
+  for (const char* integrator : {"light", "sppm"}) {
+    const auto render = [&](const char* parameter, const char* value) {
+      RenderOverrides o;
+      o.integrator = integrator;
+      o.spp = 16, o.replicates = 4;
+      o.set = {{std::string("integrator.") + parameter, value}};
+      return render_text(scene_of({"", kPinhole, std::string(kLamp) + kSky}), "tests/scenes", o);
+    };
+    const Film all = render("components", "all"), emission = render("components", "emission"),
+               direct = render("components", "direct"), indirect = render("components", "indirect"),
+               short_paths = render("maxdepth", "1");
+    double sum = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        const PixelSums a = all.light(x, y), e = emission.light(x, y), d = direct.light(x, y), n = indirect.light(x, y),
+                        s = short_paths.light(x, y);
+        const std::array<double, 3> black{};
+        ASSERT_EQ(e.emission, a.emission) << integrator;
+        ASSERT_EQ(d.direct, a.direct) << integrator;
+        ASSERT_EQ(n.indirect, a.indirect) << integrator;
+        ASSERT_EQ(s.direct, a.direct) << integrator;
+        ASSERT_EQ(s.indirect, black) << integrator;
+        ASSERT_EQ(e.direct, black) << integrator;
+        ASSERT_EQ(d.emission, black) << integrator;
+        ASSERT_EQ(n.direct, black) << integrator;
+        sum += a.indirect[1];
+      }
+    EXPECT_GT(sum, 0.0) << integrator;
+  }
+}
+
 // The messages that the settings of a scene with these overrides bring.
 std::string messages(const std::string& integrator_line, const RenderOverrides& o, RenderSettings* settings = nullptr) {
   Diagnostics diagnostics;

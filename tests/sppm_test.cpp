@@ -96,10 +96,10 @@ TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
     o.set.back().second = "0.25";
     return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_agree(scene, o)));
   };
-  expect_agreement(scene, repeated_level(kFamilyLevel, 3, film_test_count(16, 16)), films);
+  expect_agreement(scene, repeated_level(kFamilyLevel, 2, film_test_count(16, 16)), films);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm, testing::Values("conductor_box", "glass_caustic", "bumpy_glass"));
+INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm, testing::Values("conductor_box", "glass_caustic"));
 
 }  // namespace
 }  // namespace etd

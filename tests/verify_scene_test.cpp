@@ -70,9 +70,32 @@ AttributeEnd)";
 
 TEST(VerifyScene, AllEstimatorsAgree) {
   const auto all = reports(scene(kSky + kTwoLamps, R"(Material "conductor" "float roughness" 0.3)"), 512);
-  EXPECT_EQ(all.size(), 8u);
-  for (const auto& [name, e] : all)
-    EXPECT_EQ(e.verdict, name == "mis" ? Agreement::kReference : Agreement::kAgrees) << name << ": " << e.reason;
+  EXPECT_EQ(all.size(), 11u);
+  for (const auto& [name, e] : all) {
+    // Few of the paths from lights come to what is seen of so large a ground.
+    if (name == "light" || name.starts_with("sppm"))
+      EXPECT_TRUE(e.verdict == Agreement::kAgrees || e.verdict == Agreement::kCannotTell) << name << ": " << e.reason;
+    else
+      EXPECT_EQ(e.verdict, name == "mis" ? Agreement::kReference : Agreement::kAgrees) << name << ": " << e.reason;
+  }
+}
+
+TEST(VerifyScene, PathsFromLightsAndPhotonsAgreeInARoomWithGlass) {
+  Diagnostics diagnostics;
+  SceneVerifyOptions options;
+  options.size = {{16, 16}};
+  options.spp = 1024;
+  const auto v = verify_scene(
+      read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics), options, diagnostics,
+      [](double, const std::string&) {}, kGoOn);
+  ASSERT_TRUE(v) << diagnostics.format_all();
+  size_t judged = 0;
+  for (const EstimatorReport& e : v->estimators)
+    if (e.name == "light" || e.name.starts_with("sppm")) {
+      EXPECT_EQ(e.verdict, Agreement::kAgrees) << e.name << ": " << e.reason;
+      ++judged;
+    }
+  EXPECT_EQ(judged, 3u);
 }
 
 // Most paths never meet the sun, and their mean is much too low with a small spread: no reason to call them wrong.
