@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "commands.h"
 #include "render/workers.h"
 
 namespace etd::cli {
@@ -41,7 +42,7 @@ void tell_of_refused_threads() {
 
 int code_after_answers(int code, int failed) {
   if (std::fflush(stdout) != 0 && g_failure == 0) g_failure = errno;
-  if (!g_answered || g_failure == 0 || code != 0) return code;
+  if (!g_answered || g_failure == 0 || (code != kOk && code != kCannotTell)) return code;
   // A reader that has seen enough, as in `| head`, is no news.
   if (g_failure != EPIPE) tell("etendue: cannot write to standard output: {}\n", std::strerror(g_failure));
   return failed;
