@@ -25,8 +25,7 @@ class SplatBuffer {
     const auto low = static_cast<uint64_t>(fixed), high = static_cast<uint64_t>(fixed >> 64);
     const uint64_t before = std::atomic_ref(slots_[slot].low).fetch_add(low, std::memory_order_relaxed);
     const uint64_t carry = before + low < before ? 1 : 0;
-    if (high + carry != 0)
-      std::atomic_ref(slots_[slot].high).fetch_add(high + carry, std::memory_order_relaxed);
+    if (high + carry != 0) std::atomic_ref(slots_[slot].high).fetch_add(high + carry, std::memory_order_relaxed);
   }
   // The sum, which is 0 from then on. Nobody may add meanwhile.
   double take(size_t slot) {
