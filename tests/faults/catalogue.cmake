@@ -285,7 +285,7 @@ edit(integrators/light_path.h [[depth == 1 && emitted->starts_within;]] [[!FAULT
 
 # ---- photons
 
-set(sppm "Scenes/StatisticalSppm.*")
+set(sppm "LightTracing.Components*:VerifyScene.PathsFromLights*:Scenes/StatisticalSppm.*")
 fault(photon-radius-not-squared "photons are spread over a disk whose area goes with its radius" "${sppm}")
 edit(integrators/sppm.cpp [[static_cast<double>(kPi) * sqr(static_cast<double>(radius_));]]
      [[static_cast<double>(kPi) * (FAULT ? static_cast<double>(radius_) : sqr(static_cast<double>(radius_)));]])
