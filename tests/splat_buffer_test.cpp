@@ -19,6 +19,9 @@ TEST(SplatBuffer, KeepsWhatIsAdded) {
     EXPECT_NEAR(buffer.take(1), v, 0x1p-64) << v;
     EXPECT_EQ(buffer.take(1), 0.0) << v;
     EXPECT_EQ(buffer.take(0), 0.0) << v;
+    // Fractions that make up more than a whole together.
+    for (int i = 0; i < 3; ++i) buffer.add(0, v);
+    EXPECT_NEAR(buffer.take(0), 3 * v, 0x1p-50 * std::abs(v) + 0x1p-62) << v;
   }
 }
 
