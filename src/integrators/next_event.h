@@ -18,7 +18,7 @@ struct NextEvent {
   LightSampling sampling() const { return mis ? LightSampling::kCompensated : LightSampling::kComplete; }
 };
 
-// Of a path from the camera.
+// The vertex belongs to a path from the camera.
 struct NextEventVertex {
   const SurfacePoint& point;
   const SurfaceScatter& scatter;

@@ -8,7 +8,7 @@
 
 namespace etd {
 
-// Where pixels do not all get the same samples: those that each gets.
+// These are the samples that each pixel gets where not all get the same.
 struct SampleRanges {
   struct Range {
     uint32_t begin = 0, end = 0;  // indices in each replicate

@@ -17,8 +17,8 @@ struct Variant {
   std::string integrator = {};        // filled in by integrator_variants()
   bool samples_lights_alone = false;  // single samples may be as bright as SamplePeaks::light (verify/sample_peaks.h)
   std::string not_applicable = {};    // why it estimates another image in this scene, if it does
-  // Of a consistent estimator whose bias goes with the square of a radius: what halves that. Both are rendered, and the
-  // bias is taken off by extrapolation to a radius of 0.
+  // These parameters halve the radius of a consistent estimator whose bias goes with its square. Both are rendered, and
+  // the bias is taken off by extrapolation to a radius of 0.
   ParameterTexts with_half_radius = {};
   // Parameters with which path estimates the same image, if others than its defaults.
   ParameterTexts image_of_path = {};

@@ -1,4 +1,4 @@
-// Where rays of light from infinitely far away enter the scene: through disks across their direction. One hides the
+// Rays of light from infinitely far away enter the scene through disks across their direction. One hides the
 // whole scene. Where that is much larger than what the camera sees, smaller ones are nested around that, so that a ray
 // goes there about as often as through all of the rest; the density is that of all disks together.
 #pragma once

@@ -48,7 +48,7 @@ class UniformSchedule : public Schedule {
   std::optional<Pass> last_;
 };
 
-// As another schedule, until the error is no larger than a goal where tests_error() has it tested.
+// This one does as another schedule does, until the error is no larger than a goal where tests_error() has it tested.
 class UntilError : public Schedule {
  public:
   UntilError(Schedule& schedule, double goal, uint32_t replicates)

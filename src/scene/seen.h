@@ -1,4 +1,4 @@
-// Where in a scene most of what the camera sees is.
+// Tells where in a scene most of what the camera sees is.
 #pragma once
 
 #include "scene/scene.h"

@@ -14,7 +14,7 @@ namespace etd {
 
 // Rays of infinite lights start in the battery at this bounding sphere of a scene, around the unit ball.
 inline constexpr BoundingSphere kTestScene{{0.1f, -0.2f, 0.3f}, 1.5f};
-// With two smaller disks inside, which are not in its middle.
+// They have two smaller disks inside, which are not in the middle.
 inline EmissionDisks test_disks() { return EmissionDisks(kTestScene, {{0.5f, 0.1f, 0.2f}, 0.15f}); }
 
 // A light with its type erased at one time, and the surface on which rays can find it (none when infinite).

@@ -213,7 +213,7 @@ class SceneVerifier {
     return run_render(*prepared, observer, &stop_);
   }
 
-  // As render(), and what the square of a radius adds to the light taken off.
+  // Does what render() does, and takes off what the square of a radius adds to the light.
   std::optional<FinishedRender> render_unbiased(const Variant& e, const Run& run) {
     auto film = render(e, run);
     if (!film || e.with_half_radius.empty()) return film;
