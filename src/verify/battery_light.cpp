@@ -165,7 +165,7 @@ std::vector<CheckResult> judged(std::vector<CheckResult> results, const LightMod
 
 }  // namespace
 
-LightModel light_model(const LightExample& example) {
+LightModel light_model(const LightExample& example, const EmissionDisks& disks) {
   const Light light = example.light;
   LightModel m;
   m.name = example.name;
@@ -200,7 +200,6 @@ LightModel light_model(const LightExample& example) {
   m.sample_li = [=](Point3 p, Vec2 u) { return light.sample_li(p, u, mode, time); };
   m.pdf_li = [=](Point3 p, Vec3 wi, const SurfacePoint* s) { return light.pdf_li(p, wi, s, mode, time); };
   m.emitted = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, from, time); };
-  const EmissionDisks disks = test_disks();
   m.sample_le = [=](Vec2 position, Vec2 direction) { return light.sample_le(position, direction, disks, time); };
   m.pdf_le = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.pdf_le(s, w, disks, from, time); };
   return m;

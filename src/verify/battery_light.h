@@ -32,7 +32,7 @@ struct LightModel {
   std::function<std::optional<EmissionSample>(Vec2, Vec2)> sample_le;
   std::function<EmissionDensity(const SurfacePoint*, Vec3, Point3)> pdf_le;
 };
-LightModel light_model(const LightExample& example);
+LightModel light_model(const LightExample& example, const EmissionDisks& disks = test_disks());
 
 struct LightBatteryOptions {
   size_t samples = 100000;     // per point and method
