@@ -1,246 +1,253 @@
-// Light tracing, against path tracing from the camera: every kind of camera, lens and filter, every kind of light, and
-// scenes that are much larger than what is seen of them. The scenes of tests/scenes/agree are compared in
-// agreement_test.cpp, where an error of 1 % would be seen; here it takes 5 %.
-#include "integrators/light.h"
+// The lights and the choice among them: samples against densities and closed forms, sides, power, and probabilities
+// that are what they say.
+#include "lights/light.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "expect_agreement.h"
-#include "formats/pbrt/reader.h"
-#include "render/session.h"
+#include "core/distribution.h"
+#include "core/hash.h"
+#include "core/warp.h"
+#include "light_sampling/light_sampler.h"
+#include "lights/constant_infinite.h"
+#include "lights/diffuse_area.h"
 
 namespace etd {
 namespace {
 
-constexpr double kFamilyLevel = 1e-4;
-constexpr const char* kPinhole = R"(LookAt 0 -5 2  0 0 0.8  0 0 1  Camera "perspective" "float fov" 30 )";
-constexpr const char* kLamp = R"(
-AttributeBegin
-AreaLightSource "diffuse" "rgb L" [ 4 3 2 ]
-Shape "trianglemesh" "point3 P" [ -2 -2 4  2 -2 4  2 2 4  -2 2 4 ] "integer indices" [ 0 2 1 0 3 2 ]
-AttributeEnd
-)";
-constexpr const char* kSky = R"(LightSource "infinite" "rgb L" [ 0.3 0.4 0.5 ])";
-
-struct Case {
-  const char* name;
-  std::string camera = kPinhole;
-  std::string lights = kLamp;
-  uint32_t spp_path = 512, spp_light = 4096;
-};
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-
-// A rough metal ball with a glass ball before it on a diffuse floor.
-std::string scene_of(const Case& c) {
-  return c.camera + R"(
-Film "rgb" "integer xresolution" 16 "integer yresolution" 16
-Integrator "path" "integer maxdepth" 4
-WorldBegin
-)" + c.lights +
-         R"(
-Material "diffuse" "rgb reflectance" [ 0.5 0.4 0.3 ]
-Shape "trianglemesh" "point3 P" [ -2.2 -2.2 0  2.2 -2.2 0  2.2 2.2 0  -2.2 2.2 0 ] "integer indices" [ 0 1 2 0 2 3 ]
-AttributeBegin
-Material "conductor" "float roughness" 0.3
-Translate 0 0 1
-Shape "sphere"
-AttributeEnd
-Material "dielectric"
-Translate -0.5 -1.5 0.5
-Shape "sphere" "float radius" 0.4
-)";
+AreaEmission uniform(float radiance, bool two_sided) {
+  AreaEmission e;
+  e.radiance = Spectrum(radiance);
+  e.two_sided = two_sided;
+  return e;
 }
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = [] {
-    const std::string at = "LookAt 0 -5 2  0 0 0.8  0 0 1 ", inside = "LookAt 1 -2 0.5  0 0 0.8  0 0 1 ";
-    std::vector<Case> c;
-    c.push_back({"pinhole_box", std::string(kPinhole) + R"(PixelFilter "box")"});
-    c.push_back({"pinhole_mitchell", std::string(kPinhole) + R"(PixelFilter "mitchell")"});
-    c.push_back(
-        {"pinhole_wide_gaussian",
-         std::string(kPinhole) + R"(PixelFilter "gaussian" "float xradius" 6 "float yradius" 3 "float sigma" 2)"});
-    c.push_back(
-        {"thin_lens", at + R"(Camera "perspective" "float fov" 30 "float lensradius" 0.3 "float focaldistance" 4)"});
-    c.push_back({"orthographic", at + R"(Camera "orthographic" "float screenwindow" [ -2 2 -2 2 ])"});
-    c.push_back({"orthographic_lens", at + R"(Camera "orthographic" "float screenwindow" [ -2 2 -2 2 ]
-        "float lensradius" 0.3 "float focaldistance" 4)"});
-    c.push_back({"equal_area", inside + R"(Camera "spherical" PixelFilter "gaussian" "float xradius" 3 "float yradius" 3
-        "float sigma" 1.5)",
-                 kLamp, 512, 1024});
-    c.push_back({"equirectangular", inside + R"(Camera "spherical" "string mapping" "equirectangular"
-        PixelFilter "gaussian" "float xradius" 3 "float yradius" 3 "float sigma" 1.5)",
-                 kLamp, 512, 2048});
-    c.push_back({"sky", kPinhole, kSky});
-    c.push_back({"points", kPinhole, R"(
-        LightSource "point" "point3 from" [ 1 -2 3 ] "rgb I" [ 8 9 9 ]
-        LightSource "spot" "point3 from" [ -2 -2 3 ] "point3 to" [ 0 0 1 ] "rgb I" [ 30 20 20 ])"});
-    c.push_back({"sun", kPinhole, R"(LightSource "distant" "point3 from" [ 1 -2 3 ] "rgb L" [ 2 2 1 ])"});
-    c.push_back({"mixed", kPinhole, std::string(kLamp) + kSky});
-    // What is seen is a millionth of the scene.
-    const std::string far = R"(AttributeBegin Material "diffuse" Translate 1e6 3e5 -2e5 Shape "sphere" AttributeEnd)";
-    c.push_back({"sky_and_something_far", kPinhole, kSky + far, 512, 8192});
-    c.push_back({"sun_and_something_far", kPinhole,
-                 R"(LightSource "distant" "point3 from" [ 1 -2 3 ] "rgb L" [ 2 2 1 ])" + far});
-    // A roof far above what is seen hides a part of the sky.
-    c.push_back({"under_a_far_roof", kPinhole, std::string(kSky) + R"(
-        AttributeBegin Material "diffuse" "rgb reflectance" [ 0 0 0 ]
-        Shape "disk" "float height" 300 "float radius" 200 AttributeEnd)"});
-    return c;
-  }();
-  return all;
+constexpr int kSteps = 256;
+
+Mesh triangle_mesh(Point3 a, Point3 b, Point3 c) {
+  Mesh m;
+  m.positions = {a, b, c};
+  m.triangles = {{0, 1, 2}};
+  return m;
 }
 
-class StatisticalLight : public testing::TestWithParam<Case> {};
+Quadric sphere(const Transform& t, bool reversed = false) { return Quadric(t, reversed); }
 
-TEST_P(StatisticalLight, AgreesWithPathsFromTheCamera) {
-  const Case& c = GetParam();
-  const std::string scene = scene_of(c);
-  const auto render = [&](const char* integrator, uint32_t spp, uint64_t seed) {
-    RenderOverrides o;
-    o.integrator = integrator;
-    o.replicates = 16;
-    o.spp = spp;
-    o.seed = seed;
-    o.features = false;
-    o.set = {{"integrator.paths", o.integrator == "path" ? "from_lights" : "from_camera"}};
-    return render_text(scene, "tests/scenes", o);
+// The mean of 1 / pdf over a grid of samples: the solid angle that is sampled. Every sample is checked against pdf_li.
+double sampled_solid_angle(const Light& light, Point3 p) {
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const auto s =
+          light.sample_li(p, {(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps});
+      if (!s) continue;
+      sum += 1.0 / s->pdf;
+      EXPECT_NEAR(length(s->wi), 1.0f, 1e-5f);
+      EXPECT_NEAR(light.pdf_li(p, s->wi, &s->on_light) / s->pdf, 1.0f, 2e-3f);
+      EXPECT_EQ(light.emitted(&s->on_light, -s->wi)[0], s->radiance[0]);
+      const float distance = length(s->on_light.p - p);
+      EXPECT_LT(length(s->on_light.p - p - s->wi * distance), 1e-6f * distance);
+    }
+  return sum / (double(kSteps) * kSteps);
+}
+
+// Van Oosterom and Strackee 1983.
+double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
+  const double la = length(a), lb = length(b), lc = length(c);
+  return 2 * std::atan2(std::abs(dot(a, cross(b, c))), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
+}
+
+TEST(DiffuseAreaLight, TriangleSolidAngleAndSides) {
+  const Mesh m = triangle_mesh({0, 0, 0}, {2, 0, 0.5f}, {0.5f, 1, 1});
+  const Point3 p{0.3f, -0.5f, 3}, behind{0.3f, 0.5f, -2};
+  const auto exact = [&](Point3 q) {
+    return triangle_solid_angle(to_double(m.positions[0] - q), to_double(m.positions[1] - q),
+                                to_double(m.positions[2] - q));
   };
-  const auto films = [&](const TestRun& run) {
-    return std::pair(render("path", c.spp_path * run.more, 1 + run.fresh_seeds),
-                     render("light", c.spp_light * run.more, 2 + run.fresh_seeds));
-  };
-  expect_agreement(c.name, repeated_level(kFamilyLevel, cases().size(), film_test_count(16, 16)), films, 0.05);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, StatisticalLight, testing::ValuesIn(cases()),
-                         [](const auto& each) { return std::string(each.param.name); });
-
-Film render_light(uint32_t threads, const std::optional<PixelBounds>& crop = {}, const char* sampler = "sobol") {
-  RenderOverrides o;
-  o.integrator = "light";
-  o.spp = 32;
-  o.seed = 7;
-  o.threads = static_cast<int>(threads);
-  o.crop = crop;
-  o.sampler = sampler;
-  return render_text(scene_of({"", kPinhole, std::string(kLamp) + kSky}), "tests/scenes", o);
-}
-
-TEST(LightTracing, BitsDoNotDependOnThreadsOrCrop) {
-  const Film one = render_light(1);
-  const PixelBounds part{3, 5, 12, 16};
-  const Film others[] = {render_light(2), render_light(5), render_light(2, part)};
-  bool any_light = false;
-  for (const Film& film : others) {
-    const PixelBounds& c = film.settings().crop;
-    for (int y = c.y0; y < c.y1; ++y)
-      for (int x = c.x0; x < c.x1; ++x)
-        for (uint32_t r = 0; r < 8; ++r) {
-          const PixelSums a = one.sums(x, y, r), b = film.sums(x, y, r);
-          ASSERT_EQ(a.emission, b.emission);
-          ASSERT_EQ(a.direct, b.direct);
-          ASSERT_EQ(a.indirect, b.indirect);
-          ASSERT_EQ(a.count, b.count);
-          any_light |= a.direct[1] > 0;
-        }
+  for (const bool flip : {false, true}) {
+    Mesh turned = m;
+    turned.flip_ng = flip;
+    const TriangleSurface surface(turned, 0);
+    const Light one(DiffuseAreaLight<TriangleSurface>(uniform(3, false), surface));
+    const Light two(DiffuseAreaLight<TriangleSurface>(uniform(3, true), surface));
+    EXPECT_NEAR(sampled_solid_angle(one, flip ? behind : p), exact(flip ? behind : p), 1e-3);
+    EXPECT_EQ(sampled_solid_angle(one, flip ? p : behind), 0.0);
+    EXPECT_NEAR(sampled_solid_angle(two, p), exact(p), 1e-3);
+    EXPECT_NEAR(sampled_solid_angle(two, behind), exact(behind), 1e-3);
+    // Nothing is sampled towards the dark side, so its density is 0.
+    const SurfacePoint s = sample_triangle(turned, 0, {0.3f, 0.3f});
+    const Point3 dark = flip ? p : behind;
+    EXPECT_EQ(one.pdf_li(dark, normalize(s.p - dark), &s), 0.0f);
+    EXPECT_GT(two.pdf_li(dark, normalize(s.p - dark), &s), 0.0f);
+    EXPECT_FALSE(one.is_infinite());
+    EXPECT_NEAR(one.power()[0], 3 * kPi * surface.area(), 1e-4f);
+    EXPECT_EQ(two.power()[0], 2 * one.power()[0]);
   }
-  EXPECT_TRUE(any_light);
-  EXPECT_EQ(one.total(0, 0).count, 32.0);
 }
 
-// Each component alone is what it is among all of them; so are paths up to a length.
-TEST(LightTracing, ComponentsAreThoseOfTheWhole) {
-  for (const char* integrator : {"light", "sppm"}) {
-    const auto render = [&](const char* parameter, const char* value) {
-      RenderOverrides o;
-      o.integrator = integrator;
-      o.spp = 16, o.replicates = 4;
-      o.set = {{std::string("integrator.") + parameter, value}};
-      return render_text(scene_of({"", kPinhole, std::string(kLamp) + kSky}), "tests/scenes", o);
-    };
-    const Film all = render("components", "all"), emission = render("components", "emission"),
-               direct = render("components", "direct"), indirect = render("components", "indirect"),
-               short_paths = render("maxdepth", "1");
-    double sum = 0;
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 16; ++x) {
-        const PixelSums a = all.light(x, y), e = emission.light(x, y), d = direct.light(x, y), n = indirect.light(x, y),
-                        s = short_paths.light(x, y);
-        const std::array<double, 3> black{};
-        ASSERT_EQ(e.emission, a.emission) << integrator;
-        ASSERT_EQ(d.direct, a.direct) << integrator;
-        ASSERT_EQ(n.indirect, a.indirect) << integrator;
-        ASSERT_EQ(s.direct, a.direct) << integrator;
-        ASSERT_EQ(s.indirect, black) << integrator;
-        ASSERT_EQ(e.direct, black) << integrator;
-        ASSERT_EQ(d.emission, black) << integrator;
-        ASSERT_EQ(n.direct, black) << integrator;
-        sum += a.indirect[1];
+TEST(DiffuseAreaLight, DegenerateTrianglesGiveNothing) {
+  const Mesh m = triangle_mesh({1, 1, 1}, {2, 2, 2}, {3, 3, 3});
+  const Light light(DiffuseAreaLight<TriangleSurface>(uniform(1, true), TriangleSurface(m, 0)));
+  EXPECT_EQ(light.power()[0], 0.0f);
+  EXPECT_FALSE(light.sample_li({0, 0, 1}, {0.3f, 0.3f}));
+  const SurfacePoint s = triangle_point(m, 0, 0.3f, 0.3f);
+  EXPECT_EQ(light.pdf_li({0, 0, 1}, normalize(s.p - Point3{0, 0, 1}), &s), 0.0f);
+  // A point of the light itself sees no light from it.
+  const Mesh flat = triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  const Light wide(DiffuseAreaLight<TriangleSurface>(uniform(1, false), TriangleSurface(flat, 0)));
+  EXPECT_EQ(sampled_solid_angle(wide, {0.25f, 0.25f, 0}), 0.0);
+}
+
+TEST(DiffuseAreaLight, SphereFromOutside) {
+  const Quadric s = sphere(Transform::translate({1, 2, 3}) * Transform::scale({0.5, 0.5, 0.5}));
+  const Light one(DiffuseAreaLight<QuadricSurface>(uniform(2, false), QuadricSurface(s)));
+  const Point3 p{1, 2, 5};  // four radii away
+  const double cap = 2 * double{kPi} * (1 - std::sqrt(1 - 1 / 16.0));
+  EXPECT_NEAR(sampled_solid_angle(one, p), cap, 0.01 * cap);
+  EXPECT_NEAR(one.power()[0], 2 * kPi * kPi, 1e-4f);
+  const Light two(DiffuseAreaLight<QuadricSurface>(uniform(2, true), QuadricSurface(s)));
+  EXPECT_NEAR(sampled_solid_angle(two, p), cap, 0.01 * cap);  // the near side hides the far one
+  const Quadric reversed = sphere(Transform::translate({1, 2, 3}), true);
+  const Light inward(DiffuseAreaLight<QuadricSurface>(uniform(2, false), QuadricSurface(reversed)));
+  EXPECT_NEAR(sampled_solid_angle(inward, {1.5f, 2, 3.2f}), 4 * kPi, 0.02);
+}
+
+// From inside, a closed surface fills the sphere of directions, whatever its shape.
+TEST(DiffuseAreaLight, EllipsoidsFromInsideAndTheirPower) {
+  const Transform t = Transform::translate({-3, 1, 0}) * Transform::rotate(33, {1, 2, 3}) *
+                      Transform::scale({1, 2, 0.5}) * Transform::rotate(70, {3, 1, -1});
+  for (const Transform& shape :
+       {t, t * Transform::scale({-1, 1, 1}), Transform::scale({1e-3, 1e-3, 2e-3}), Transform::scale({1e4, 2e4, 1e4})}) {
+    const Quadric s = sphere(shape, true);
+    const Light light(DiffuseAreaLight<QuadricSurface>(uniform(1, false), QuadricSurface(s)));
+    EXPECT_NEAR(sampled_solid_angle(light, to_float(shape.point({0.2, -0.1, 0.3}))), 4 * kPi, 0.05);
+    double area = 0;  // the mean of 1 / pdf_area
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; j < kSteps; ++j) {
+        float pdf = 0;
+        QuadricSurface(s).sample({(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps},
+                                 pdf);
+        area += 1.0 / pdf / (double(kSteps) * kSteps);
       }
-    EXPECT_GT(sum, 0.0) << integrator;
+    EXPECT_NEAR(light.power()[0] / (kPi * area), 1.0, 1e-3);
   }
 }
 
-// The messages that the settings of a scene with these overrides bring.
-std::string messages(const std::string& integrator_line, const RenderOverrides& o, RenderSettings* settings = nullptr) {
-  Diagnostics diagnostics;
-  std::string text = scene_of({""});
-  text.replace(text.find("Integrator"), text.find("WorldBegin") - text.find("Integrator"), integrator_line + "\n");
-  const SceneDescription scene = read_pbrt_text(text, "scene.pbrt", {}, diagnostics);
-  const RenderSettings made = make_settings(scene, o, diagnostics);
-  if (settings) *settings = made;
-  return diagnostics.format_all();
+TEST(ConstantInfiniteLight, EveryDirectionAlike) {
+  const Light light(ConstantInfiniteLight{Spectrum::rgb(1, 2, 3)});
+  EXPECT_TRUE(light.is_infinite());
+  Vec3 sum;
+  for (int i = 0; i < 64; ++i)
+    for (int j = 0; j < 64; ++j) {
+      const auto s =
+          light.sample_li({5, 5, 5}, {(static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64});
+      ASSERT_TRUE(s);
+      EXPECT_EQ(s->pdf, light.pdf_li({5, 5, 5}, s->wi, nullptr));
+      EXPECT_EQ(s->radiance[2], 3.0f);
+      EXPECT_EQ(light.emitted(nullptr, -s->wi)[1], 2.0f);
+      sum += s->wi;
+    }
+  EXPECT_LT(length(sum) / 4096, 1e-5f);
+  EXPECT_FLOAT_EQ(light.pdf_li({}, {0, 0, 1}, nullptr) * 4 * kPi, 1.0f);
+  EXPECT_FLOAT_EQ(light.power()[0], 4 * kPi * kPi);
 }
 
-TEST(LightTracing, TakesTheParametersOfTheScenesLineThatItHas) {
-  RenderOverrides o;
-  o.integrator = "light";
-  RenderSettings s;
-  const std::string notes = messages(
-      R"(Integrator "path" "integer maxdepth" 9 "string mode" "naive" "string misheuristic" "balance")", o, &s);
-  EXPECT_EQ(s.integrator.model, "light");
-  EXPECT_EQ(s.integrator.find("maxdepth")->integers[0], 9);
-  EXPECT_EQ(s.integrator.find("mode"), nullptr);
-  EXPECT_NE(notes.find("integrator \"light\" has none of these parameters, which the scene sets for \"path\": mode, "
-                       "misheuristic"),
-            std::string::npos)
-      << notes;
-  EXPECT_EQ(notes.find("error"), std::string::npos) << notes;
-  EXPECT_EQ(s.replicates, 8u);
-  EXPECT_FALSE(s.features);
+// The exact probability of each index: sums of the parts of the bins that lead to it, found by bisection.
+std::vector<double> true_probabilities(const AliasTable& table) {
+  const size_t n = table.size();
+  std::vector<double> p(n, 0.0);
+  for (size_t bin = 0; bin < n; ++bin) {
+    const double w = 1.0 / static_cast<double>(n), start = static_cast<double>(bin) * w;
+    // In a bin, sample() gives one index up to a threshold and another beyond it.
+    double lo = 0, hi = 1;
+    const uint32_t first = table.sample(start + w * 1e-14), last = table.sample(start + w * (1 - 1e-9));
+    for (int i = 0; i < 60 && first != last; ++i) {
+      const double middle = (lo + hi) / 2;
+      (table.sample(start + w * middle) == first ? lo : hi) = middle;
+    }
+    p[first] += w * hi;
+    p[last] += w * (1 - hi);
+  }
+  return p;
 }
 
-TEST(LightTracing, IsNamedByScenesToo) {
-  for (const char* name : {"light", "lightpath"}) {
-    RenderSettings s;
-    const std::string notes = messages(fmt::format("Integrator \"{}\" \"integer maxdepth\" 3", name), {}, &s);
-    EXPECT_EQ(s.integrator.model, "light");
-    EXPECT_EQ(s.integrator.find("maxdepth")->integers[0], 3);
-    EXPECT_EQ(notes.find("error"), std::string::npos) << notes;
+TEST(AliasTable, ProbabilitiesAreExact) {
+  HashStream rng(6);
+  for (const size_t n : {1, 2, 3, 10, 1000, 65536}) {
+    std::vector<double> weights(n);
+    double sum = 0;
+    for (double& w : weights) {
+      w = rng.next_float() < 0.3f ? 0.0 : std::pow(10.0, -9.0 * rng.next_float());
+      sum += w;
+    }
+    weights[n / 2] += 1;
+    sum += 1;
+    const AliasTable table(weights);
+    const std::vector<double> p = true_probabilities(table);
+    for (size_t i = 0; i < n; ++i) {
+      EXPECT_NEAR(table.probability(static_cast<uint32_t>(i)) * sum, weights[i], 1e-6 * weights[i]);
+      EXPECT_NEAR(p[i], weights[i] / sum, 1e-5 * weights[i] / sum + 1e-7 / static_cast<double>(n)) << n << ' ' << i;
+    }
   }
 }
 
-TEST(LightTracing, RefusesWhatItCannotDo) {
-  const auto expect = [](const RenderOverrides& o, const std::string& message) {
-    const std::string text = messages(R"(Integrator "light")", o);
-    EXPECT_NE(text.find(message), std::string::npos) << text;
-    EXPECT_NE(text.find("1 error"), std::string::npos) << text;
+TEST(AliasTable, FaintThingsAreFound) {
+  std::vector<double> weights(1000, 1.0);
+  weights[500] = 1e-9;
+  const AliasTable table(weights);
+  EXPECT_EQ(table.sample(0.5 + 0.5e-12), 500u);
+  EXPECT_NE(table.sample(0.5 + 2e-12), 500u);
+}
+
+TEST(AliasTable, WeightZeroIsNeverSampled) {
+  for (const size_t n : {3, 7, 100, 4099}) {
+    std::vector<double> weights(n, 0.0);
+    for (size_t i = 1; i < n; i += 3) weights[i] = 0.1 * static_cast<double>(1 + i % 5);
+    const AliasTable table(weights);
+    for (size_t bin = 0; bin < n; ++bin)
+      for (const double t : {0.0, 1e-12, 0.3, 0.7, 1 - 1e-12}) {
+        const double u = std::min((static_cast<double>(bin) + t) / static_cast<double>(n), 1 - 0x1p-53);
+        EXPECT_GT(weights[table.sample(u)], 0.0);
+      }
+  }
+  const AliasTable dark(std::vector<double>{0, 0});
+  EXPECT_EQ(dark.probability(0), 0.0f);
+  EXPECT_EQ(dark.probability(1), 0.0f);
+}
+
+TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
+  const Mesh m = triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  const auto area = [&](float l) {
+    return Light(DiffuseAreaLight<TriangleSurface>(uniform(l, false), TriangleSurface(m, 0)));
   };
-  RenderOverrides o;
-  o.set = {{"integrator.mode", "naive"}};
-  expect(o, "integrator \"light\" has no parameter \"mode\"");
-  expect(o, "those that have it: path; \"light\" has maxdepth, components, roulettedepth, paths, lightsampler");
-  o = {};
-  o.replicates = 2;
-  expect(o, "integrator \"light\" needs at least 4 replicates");
-  o = {};
-  o.alpha = true;
-  expect(o, "does not look at the scene from the camera, so there is no alpha");
-  o = {};
-  o.integrator = "ligth";
-  expect(o, "did you mean \"light\"?");
+  const auto infinite = [](float l) { return Light(ConstantInfiniteLight{Spectrum(l)}); };
+  const auto probabilities = [](const std::vector<Light>& lights) {
+    const LightSampler sampler(lights);
+    std::vector<float> p;
+    for (uint32_t i = 0; i < lights.size(); ++i) p.push_back(sampler.probability(i));
+    for (int i = 0; i < 1000; ++i) {
+      const auto choice = sampler.sample((i + 0.5) / 1000);
+      if (!choice) continue;
+      EXPECT_EQ(choice->probability, p[choice->light]);
+      EXPECT_GT(choice->probability, 0.0f);
+    }
+    return p;
+  };
+  const std::vector<float> mixed = probabilities({area(1), infinite(1e6f), area(3), infinite(3e6f), area(0)});
+  EXPECT_FLOAT_EQ(mixed[0], 0.125f);
+  EXPECT_FLOAT_EQ(mixed[1], 0.125f);
+  EXPECT_FLOAT_EQ(mixed[2], 0.375f);
+  EXPECT_FLOAT_EQ(mixed[3], 0.375f);
+  EXPECT_EQ(mixed[4], 0.0f);
+  EXPECT_EQ(probabilities({area(1), infinite(0)}), (std::vector<float>{1, 0}));
+  EXPECT_EQ(probabilities({infinite(1), area(0)}), (std::vector<float>{1, 0}));
+  const LightSampler alike(std::vector<Light>{area(1), infinite(1e6f), area(0), area(3)}, LightChoice::kUniform);
+  EXPECT_FLOAT_EQ(alike.probability(0), 1 / 3.0f);
+  EXPECT_FLOAT_EQ(alike.probability(1), 1 / 3.0f);
+  EXPECT_EQ(alike.probability(2), 0.0f);
+  EXPECT_FLOAT_EQ(alike.probability(3), 1 / 3.0f);
+  EXPECT_FALSE(LightSampler(std::vector<Light>{area(0), infinite(0)}).sample(0.5));
+  EXPECT_FALSE(LightSampler(std::vector<Light>{}).sample(0));
+  EXPECT_FALSE(LightSampler().sample(0));
 }
 
 }  // namespace
