@@ -18,6 +18,11 @@ float number_of(const Ray& r, const Hit& hit) {
 
 }  // namespace
 
+bool Scene::occluded(const Ray& ray) const {
+  Hit hit;
+  return accelerator->occluded(ray) && (!has_holes || intersect(ray, hit));
+}
+
 bool Scene::is_hole(const Ray& ray, const Hit& hit) const {
   const SurfaceBinding& binding = binding_of(hit);
   if (!binding.has_holes) return false;

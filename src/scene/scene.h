@@ -60,10 +60,7 @@ class Scene {
   bool intersect(const Ray& ray, Hit& hit) const {
     return accelerator->intersect(ray, hit) && (!has_holes || find_solid(ray, hit));
   }
-  bool occluded(const Ray& ray) const {
-    Hit hit;
-    return accelerator->occluded(ray) && (!has_holes || intersect(ray, hit));
-  }
+  bool occluded(const Ray& ray) const;
   // Share of a light's surface that is there: what is sampled on it shines with this factor. Scattering finds it with
   // this probability in the first place.
   float light_alpha(uint32_t light, const SurfacePoint& on_light) const {

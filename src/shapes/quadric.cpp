@@ -228,6 +228,10 @@ float quadric_area_stretch(const Quadric& quadric, Vec3d q) {
   return area_stretch(quadric.to_world, quadric.to_object, quadric.unit_normal(q));
 }
 
+float quadric_pdf_area(const Quadric& quadric, Vec3d q) {
+  return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));
+}
+
 float quadric_area(const Quadric& quadric) {
   const QuadricPart& part = quadric.part;
   if (part.is_full_sphere()) return static_cast<float>(ellipsoid_area(quadric.to_world));

@@ -90,8 +90,6 @@ float quadric_area(const Quadric& quadric);
 // The point for a uniform point of the unit shape's part; its density per area of the surface is
 // quadric_pdf_area(q), q being the unit-shape point returned in *q. Uniform whenever the map keeps shapes similar.
 SurfacePoint sample_quadric(const Quadric& quadric, Vec2 u, Vec3d* q);
-inline float quadric_pdf_area(const Quadric& quadric, Vec3d q) {
-  return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));
-}
+float quadric_pdf_area(const Quadric& quadric, Vec3d q);
 
 }  // namespace etd

@@ -43,7 +43,7 @@ CellStats sampled(const ScatterModel& m, Vec3 wo, TransportMode mode, size_t n, 
     for (size_t lane = 0; lane < 3; ++lane) {
       stats.total[lane].add(weight[lane]);
       stats.largest[lane] = std::max(stats.largest[lane], weight[lane]);
-      for (int c = 0; c < kCells; ++c) stats.cells[static_cast<size_t>(c)][lane].add(c == hit ? weight[lane] : 0.0);
+      if (hit >= 0) stats.cells[static_cast<size_t>(hit)][lane].add(weight[lane]);
     }
     if (!s) continue;
     const auto where = [&] { return describe(wo, mode); };
@@ -54,6 +54,9 @@ CellStats sampled(const ScatterModel& m, Vec3 wo, TransportMode mode, size_t n, 
     // The way into a tilted frame and back rounds.
     form.add(s->pdf == pdf || (m.is_tilted() && std::abs(s->pdf / pdf - 1.0f) < 1e-3f) ? 0.0 : 1.0, where);
   }
+  // A sample is worth nothing to the cells that it did not hit.
+  for (auto& cell : stats.cells)
+    for (RunningStats& lane : cell) lane.add_zeros(n - lane.count());
   return stats;
 }
 

@@ -123,6 +123,15 @@ void RunningStats::add(double x) {
   m2_ += delta * (x - mean_);
 }
 
+// Two groups of numbers are merged as Chan, Golub and LeVeque 1979 do, one of them being all zeros.
+void RunningStats::add_zeros(uint64_t times) {
+  if (times == 0) return;
+  const double n = static_cast<double>(count_), zeros = static_cast<double>(times);
+  m2_ += mean_ * mean_ * n * zeros / (n + zeros);
+  mean_ *= n / (n + zeros);
+  count_ += times;
+}
+
 TestResult t_test(const RunningStats& sample, double expected) {
   const double variance = sample.variance_of_mean(), difference = sample.mean() - expected;
   if (variance == 0.0)

@@ -52,6 +52,8 @@ struct MeanEstimate {
 class RunningStats {
  public:
   void add(double x);
+  // Adds 0 this many times.
+  void add_zeros(uint64_t times);
   uint64_t count() const { return count_; }
   double mean() const { return mean_; }
   // Returns the unbiased variance of the numbers; 0 for fewer than two.

@@ -242,7 +242,7 @@ edit(integrators/next_event.h [[* scene.light_alpha(choice->light, s->on_light)]
      [[* (FAULT ? 1.0f : scene.light_alpha(choice->light, s->on_light))]])
 
 fault(holes-throw-shadows "shadow rays do not pass through holes" "${tests}:Alpha.*")
-edit(scene/scene.h [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_holes || intersect(ray, hit));]])
+edit(scene/scene.cpp [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_holes || intersect(ray, hit));]])
 
 # ---- paths from lights
 
@@ -262,7 +262,7 @@ edit(film/film.cpp [[const double pixels = static_cast<double>(settings_.width) 
                              : static_cast<double>(settings_.width) * static_cast<double>(settings_.height);]])
 
 fault(splats-not-carried "sums of splats lose what goes from the lower to the upper half" "SplatBuffer.*")
-edit(film/splat_buffer.h [[before + low < before ? 1 : 0;]] [[!FAULT && before + low < before ? 1 : 0;]])
+edit(film/splat_buffer.cpp [[before + low < before ? 1 : 0;]] [[!FAULT && before + low < before ? 1 : 0;]])
 
 fault(light-choice-not-divided "paths from lights are not divided by the probability of their light" "${light}/mixed")
 edit(integrators/light_path.h [[(alpha / probability);]] [[(alpha / (FAULT ? 1.0f : probability));]])
@@ -321,7 +321,7 @@ edit(accel/spawn.h [[return {offset_origin(s, w), w, kInfinity, time};]]
 
 closed_forms(tests cap_light cylinder_light ring_light)
 fault(quadric-stretch "sampling a stretched quadric leaves out how its area stretches" "Quadric*:${tests}:${lights}")
-edit(shapes/quadric.h [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
+edit(shapes/quadric.cpp [[return 1.0f / (quadric.part.area() * quadric_area_stretch(quadric, q));]]
      [[return 1.0f / (quadric.part.area() * (FAULT ? 1.0f : quadric_area_stretch(quadric, q)));]])
 
 fault(normal-maps-not-mirrored "the second axis of normal maps is n x u, wherever v grows" "Shapes/MirroredDetail.*")
@@ -360,7 +360,7 @@ edit(lights/moving_light.cpp [[s->pdf *= solid_angle_stretch(at, s->wi);]]
 # ---- samples that are no numbers
 
 fault(invalid-samples-kept "NaN reaches the film" "InvalidSamples.*")
-edit(film/invalid_samples.h [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
+edit(film/invalid_samples.cpp [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
 
 # ---- images
 

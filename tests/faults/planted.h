@@ -1,4 +1,4 @@
-// Included ahead of everything in the build that has faults planted (preset `faults`): which of them is switched on.
+// Included by each file that has faults planted (preset `faults`): which of them is switched on.
 #pragma once
 
 #include <cstdlib>
