@@ -14,8 +14,6 @@
 namespace etd {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 struct Made {
   Aperture aperture;
   std::string problems;

@@ -10,8 +10,6 @@
 namespace etd {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 Image grey(int width, int height, std::vector<float> values) { return {width, height, 1, std::move(values)}; }
 
 // Values between 0 and 4, many of them 0, one of them large.

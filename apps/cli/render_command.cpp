@@ -91,8 +91,9 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
 
 void print_summary(const PreparedRender& prepared, const RenderResult& result, const std::string& label) {
   const RenderSettings& s = prepared.settings;
-  report("{}{}{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", label, label.empty() ? "" : "  ", s.crop.width(),
-         s.crop.height(), result.spp, result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
+  report("{}{}{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", label, label.empty() ? "" : "  ", s.film.crop.width(),
+         s.film.crop.height(), result.spp, result.unequal ? " or more" : "", stop_text(s, result.stopped_by),
+         result.seconds,
          short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
          error_text(result.error));
 }

@@ -17,7 +17,7 @@ namespace {
 
 // An image larger than the machine is a slip of the keyboard, better reported than met as a killed process.
 void check_film_memory(const RenderSettings& settings, Diagnostics& diagnostics) {
-  const double needed = static_cast<double>(Film::bytes_for(film_settings(settings)));
+  const double needed = static_cast<double>(Film::bytes_for(settings.film));
   const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed <= present) return;
   diagnostics.error(
@@ -34,23 +34,6 @@ std::string bias_of(const PreparedRender& prepared) {
 
 }  // namespace
 
-FilmSettings film_settings(const RenderSettings& s) {
-  return {.width = s.width,
-          .height = s.height,
-          .crop = s.crop,
-          .replicates = s.replicate_count,
-          .first_replicate = s.first_replicate,
-          .of_replicates = s.replicates,
-          .features = s.features,
-          .positions = s.positions,
-          .alpha = s.alpha,
-          .ids = s.ids,
-          .splats = s.traits.splats,
-          .correlated = s.traits.correlated_pixels,
-          .feature_space = s.feature_space,
-          .sensor = s.sensor};
-}
-
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
                                              Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled,
                                              SceneFiles* files) {
@@ -66,27 +49,27 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   const RenderSettings& settings = prepared.settings;
   check_film_memory(settings, diagnostics);
 
-  TbbThreads threads(settings.threads);  // building the accelerator is parallel too
+  TbbThreads threads(settings.driver.threads);  // building the accelerator is parallel too
   prepared.scene = std::move(compiled);
   if (!prepared.scene)
     prepared.scene = threads.run([&] {
       return compile(description,
-                     {.width = settings.width,
-                      .height = settings.height,
+                     {.width = settings.film.width,
+                      .height = settings.film.height,
                       .spp = settings.spp,
                       .textures = settings.textures,
                       .files = files},
                      diagnostics);
     });
   if (diagnostics.has_errors() || !prepared.scene) return {};
-  if (settings.ids) prepared.labels = label_ids(prepared.scene->names, diagnostics);
+  if (settings.film.ids) prepared.labels = label_ids(prepared.scene->names, diagnostics);
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
-                                  .width = settings.width,
-                                  .height = settings.height,
-                                  .crop = settings.crop,
+                                  .width = settings.film.width,
+                                  .height = settings.film.height,
+                                  .crop = settings.film.crop,
                                   .tile_size = settings.tile_size,
-                                  .replicates = settings.replicates};
+                                  .replicates = settings.film.all_replicates()};
   prepared.integrator = make_integrator(settings.integrator, *prepared.scene, context, diagnostics);
   if (diagnostics.has_errors()) return {};
   prepared.substitutes = fmt::format("{}", fmt::join(diagnostics.substitutes(), "; "));
@@ -95,17 +78,12 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
 }
 
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
-  const RenderSettings& settings = prepared.settings;
-  FilmSettings film = film_settings(settings);
+  FilmSettings film = prepared.settings.film;
   film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
   return_freed_memory();
   FinishedRender finished{Film(film), {}};
   const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
-  const DriverSettings driver{.spp = settings.spp / settings.replicates * settings.replicate_count,
-                              .threads = settings.threads,
-                              .seconds = settings.seconds,
-                              .error = settings.error};
-  finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);
+  finished.result = render(*prepared.integrator, finished.film, prepared.settings.driver, observer, stop);
   return finished;
 }
 
@@ -115,9 +93,9 @@ RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& fin
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, bias_of(prepared), finished.result);
   if (!prepared.camera_file.empty())
     image.metadata.emplace_back("etendue:camera", prepared.camera_file.filename().string());
-  const bool correlated = prepared.settings.traits.correlated_pixels;
+  const bool correlated = prepared.settings.film.correlated;
   image.metadata.emplace_back("etendue:pixels", std::string(correlated ? "correlated" : "independent"));
-  if (prepared.settings.ids) add_manifests(prepared.labels, finished.film, image.metadata);
+  if (prepared.settings.film.ids) add_manifests(prepared.labels, finished.film, image.metadata);
   add_provenance(prepared, finished, image.metadata);
   return image;
 }

@@ -37,8 +37,6 @@ struct PreparedRender {
   double build_seconds = 0;
 };
 
-FilmSettings film_settings(const RenderSettings& settings);
-
 // Compiles the scene and makes the integrator. Reports everything that is wrong with description and overrides, also
 // when errors were reported before, and returns nothing if there is any error.
 // `compiled`: the scene that was compiled before from the same description, for an image of the same size.

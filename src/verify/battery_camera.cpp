@@ -105,7 +105,6 @@ void check_spread(const CameraModel& camera, Worst& spread) {
   }
   if (camera.spread == FilmSpread::kOther) return;
   const bool latlong = camera.spread == FilmSpread::kLatLong;
-  constexpr double kPiD = 3.14159265358979323846;
   for_film([&](Vec2 p) {
     const Vec3 d = camera.generate_ray({p, kMiddle, kTime}).d;
     const double sine = std::sqrt(std::max(1.0 - sqr(static_cast<double>(dot(d, camera.up))), 0.0));

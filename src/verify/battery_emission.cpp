@@ -14,8 +14,6 @@ namespace etd {
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 Vec2 next_2d(HashStream& numbers) {
   const float x = numbers.next_float(), y = numbers.next_float();
   return {x, y};

@@ -13,8 +13,6 @@ namespace etd {
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 std::string describe(Point3 p) { return fmt::format("seen from ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); }
 
 // The points are in front of, behind, beside, near, far from and (for spheres) within the examples.

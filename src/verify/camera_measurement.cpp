@@ -12,7 +12,6 @@ namespace etd {
 namespace {
 
 constexpr int kWidth = CameraModel::kFilmWidth, kHeight = CameraModel::kFilmHeight;
-constexpr double kPiD = 3.14159265358979323846;
 
 // Radiance on a sphere around the camera and points to see it from, by chance.
 class Surroundings {

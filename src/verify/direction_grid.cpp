@@ -15,7 +15,6 @@ constexpr int kMaxDepth = 48;
 // than a cell could fall between the nodes of the quadrature.
 constexpr size_t kMinCluster = 2;
 constexpr double kTightCluster = 0.25;
-constexpr double kPiD = 3.14159265358979323846;
 
 // x = theta, y = phi. The angle comes from both components, so it is precise near the poles.
 Vec3d angles(Vec3 w) {

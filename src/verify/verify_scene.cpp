@@ -189,7 +189,7 @@ class SceneVerifier {
     const Variant as_in_scene{.name = "", .integrator = std::string(all_models(Family::kIntegrator).front()->name)};
     RenderOverrides o = overrides_for(as_in_scene, options_, options_.size.value_or(std::pair{0, 0}), {}, 1);
     if (!options_.size) o.size.reset();
-    RenderSettings s = make_settings(description_, o, diagnostics_);
+    const FilmSettings s = make_settings(description_, o, diagnostics_).film;
     size_ = {s.width, s.height};
     if (const int side = std::max(s.width, s.height); !options_.size && side > kLargestSide)
       size_ = {std::max(1, s.width * kLargestSide / side), std::max(1, s.height * kLargestSide / side)};

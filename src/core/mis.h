@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/fn.h"
+
 namespace etd {
 
 enum class MisHeuristic : uint8_t {
@@ -25,7 +27,7 @@ inline MisHeuristic mis_heuristic(std::string_view name) {
 
 // The weight of a sample made with density `pdf` that the other technique makes with density `other`. The weights of
 // the two sum to 1 wherever one of them is positive. Infinite densities come from squares that no float holds.
-inline float mis_weight(MisHeuristic heuristic, float pdf, float other) {
+ETD_FN float mis_weight(MisHeuristic heuristic, float pdf, float other) {
   const float larger = pdf > other ? 1.0f : (pdf == other && pdf > 0.0f ? 0.5f : 0.0f);
   if (std::isinf(pdf) || std::isinf(other)) return larger;
   switch (heuristic) {
