@@ -9,7 +9,7 @@
 #include "core/hash.h"
 #include "model_uses.h"
 #include "render_helper.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {

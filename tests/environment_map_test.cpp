@@ -5,7 +5,7 @@
 
 #include "core/hash.h"
 #include "core/warp.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {

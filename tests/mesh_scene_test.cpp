@@ -11,7 +11,7 @@
 #include "scene/compile.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
-#include "verify/film_mean.h"
+#include "verify/statistics/film_mean.h"
 
 namespace etd {
 namespace {
