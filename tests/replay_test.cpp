@@ -15,6 +15,7 @@
 #include "render/provenance.h"
 #include "render_helper.h"
 #include "same_bits.h"
+#include "scene/info.h"
 #include "temp_folder.h"
 
 namespace etd {
@@ -32,7 +33,9 @@ struct Prepared {
     render = prepare_render(read_pbrt(source_path(file), diagnostics), overrides, diagnostics);
     EXPECT_TRUE(render) << diagnostics.format_all();
   }
-  ReplayedScene scene() const { return {*render->scene, diagnostics.sources(), render->settings.film.sensor}; }
+  ReplayedScene scene() const {
+    return {*render->compiled.scene, render->compiled.info->names, diagnostics.sources(), render->settings.film.sensor};
+  }
   PathRecord replay(const SampleId& id) const {
     PathRecord path;
     EXPECT_TRUE(render->integrator->replay(id, path));
@@ -206,7 +209,8 @@ TEST(Replay, NamesWhatThePathMeets) {
   o.spp = 64;
   const auto prepared = prepare_render(read_pbrt_text(kScene, "ball.pbrt", ".", diagnostics), o, diagnostics);
   ASSERT_TRUE(prepared) << diagnostics.format_all();
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.film.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   size_t red = 0, blue = 0, lamp = 0, sky = 0;
   for (uint32_t n = 0; n < 64; ++n) {
     PathRecord path;
@@ -253,7 +257,8 @@ TEST(Replay, ShowsInvalidSamplesAsTheyAre) {
   PathRecord path;
   ASSERT_TRUE(prepared->integrator->replay(*invalid.first, path));
   EXPECT_FALSE(is_sound(path.sample));
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.film.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   EXPECT_EQ(received_by_film(path, in).rgb, (std::array<double, 3>{}));
   const std::string text = replay_text(path, in);
   EXPECT_NE(text.find("direct   (inf, inf, inf)"), std::string::npos) << text;

@@ -164,7 +164,7 @@ bool render_view(const Arguments& args, const View& view, const std::string& lab
   outcome.invalid = outcome.invalid || finished.result.invalid.total() > 0;
   outcome.failed = outcome.failed || finished.result.stopped_by == StoppedBy::kMemory;
   watchers.end(finished.film);
-  const TextureCache* cache = prepared.scene->textures.cache.get();
+  const TextureCache* cache = prepared.compiled.scene->textures.cache.get();
   if (!cache || cache->read_error().empty()) return true;
   tell("etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
        cache->read_error());

@@ -10,6 +10,7 @@
 #include "render/provenance.h"
 #include "render/replay.h"
 #include "render/version.h"
+#include "scene/info.h"
 
 namespace etd::cli {
 namespace {
@@ -201,7 +202,8 @@ int replay(const Arguments& args) {
   if (task.image && task.image->version != version())
     warn(fmt::format("the image is of version {}, this is {}", task.image->version, version()));
 
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.film.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   if (args.fireflies) return replay_fireflies(args, *task.image, *prepared, in);
   return replay_one({args.pixel->first, args.pixel->second, *args.sample}, *prepared, in, args.json);
 }

@@ -51,8 +51,9 @@ MemoryForecast forecast_memory(const PreparedRender& prepared) {
   const FilmSettings& film = prepared.settings.film;
   MemoryForecast forecast;
   forecast.film = Film::bytes_for(film);
-  if (prepared.scene->textures.cache) {
-    const size_t most = prepared.scene->textures.cache_limit, now = prepared.scene->textures.image_bytes();
+  if (prepared.compiled.scene->textures.cache) {
+    const size_t most = prepared.compiled.scene->textures.cache_limit,
+                 now = prepared.compiled.scene->textures.image_bytes();
     forecast.textures = most - std::min(most, now);
   }
   // Measured: copies of the rows that are there at once, the code of the encoders, a thread's stack and what its

@@ -9,7 +9,7 @@
 #include "render/memory.h"
 #include "render/provenance.h"
 #include "render/threads.h"
-#include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 
 namespace etd {
@@ -35,8 +35,7 @@ std::string bias_of(const PreparedRender& prepared) {
 }  // namespace
 
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled,
-                                             SceneFiles* files) {
+                                             Diagnostics& diagnostics, CompiledScene compiled, SceneFiles* files) {
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
@@ -50,9 +49,9 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   check_film_memory(settings, diagnostics);
 
   TbbThreads threads(settings.driver.threads);  // building the accelerator is parallel too
-  prepared.scene = std::move(compiled);
-  if (!prepared.scene)
-    prepared.scene = threads.run([&] {
+  prepared.compiled = std::move(compiled);
+  if (!prepared.compiled.scene)
+    prepared.compiled = threads.run([&] {
       return compile(description,
                      {.width = settings.film.width,
                       .height = settings.film.height,
@@ -61,8 +60,8 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
                       .files = files},
                      diagnostics);
     });
-  if (diagnostics.has_errors() || !prepared.scene) return {};
-  if (settings.film.ids) prepared.labels = label_ids(prepared.scene->names, diagnostics);
+  if (diagnostics.has_errors() || !prepared.compiled.scene) return {};
+  if (settings.film.ids) prepared.labels = label_ids(prepared.compiled.info->names, diagnostics);
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
                                   .width = settings.film.width,
@@ -70,7 +69,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
                                   .crop = settings.film.crop,
                                   .tile_size = settings.tile_size,
                                   .replicates = settings.film.all_replicates()};
-  prepared.integrator = make_integrator(settings.integrator, *prepared.scene, context, diagnostics);
+  prepared.integrator = make_integrator(settings.integrator, *prepared.compiled.scene, context, diagnostics);
   if (diagnostics.has_errors()) return {};
   prepared.substitutes = fmt::format("{}", fmt::join(diagnostics.substitutes(), "; "));
   prepared.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -79,7 +78,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
 
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
   FilmSettings film = prepared.settings.film;
-  film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
+  film.feature_space = film.feature_space * Transform::translate(prepared.compiled.scene->origin);
   return_freed_memory();
   FinishedRender finished{Film(film), {}};
   const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
@@ -112,7 +111,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
-  stats.texture_bytes = prepared.scene->textures.image_bytes();
+  stats.texture_bytes = prepared.compiled.scene->textures.image_bytes();
   count_pixels(finished.film, stats);
   return stats;
 }

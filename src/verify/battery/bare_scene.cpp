@@ -16,7 +16,7 @@ SceneDescription bare_description() {
 
 BareScene compile_bare(const SceneDescription& description, int width, int height) {
   Diagnostics diagnostics;
-  BareScene bare{compile(description, {.width = width, .height = height}, diagnostics), {}};
+  BareScene bare{compile(description, {.width = width, .height = height}, diagnostics).scene, {}};
   if (!bare.scene) bare.problem = diagnostics.format_all();
   return bare;
 }

@@ -196,17 +196,17 @@ class SceneVerifier {
     o.size = size_;
     const auto prepared = prepare_render(description_, o, diagnostics_);
     if (!prepared) return false;
-    scene_ = prepared->scene;
+    compiled_ = prepared->compiled;
     const Param* depth = prepared->settings.integrator.find("maxdepth");
-    estimators_ = integrator_variants(*scene_, depth && depth->integers.size() == 1 ? depth->integers[0] : 5);
+    estimators_ = integrator_variants(*compiled_.scene, depth && depth->integers.size() == 1 ? depth->integers[0] : 5);
     level_ = bonferroni_level(options_.family_level, estimators_.size() - 1);
-    peaks_ = find_sample_peaks(*scene_, size_.first, size_.second);
+    peaks_ = find_sample_peaks(*compiled_.scene, size_.first, size_.second);
     return true;
   }
 
   std::optional<FinishedRender> render(const Variant& e, const Run& run) {
-    auto prepared =
-        prepare_render(description_, overrides_for(e, options_, size_, run, estimators_.size()), diagnostics_, scene_);
+    auto prepared = prepare_render(description_, overrides_for(e, options_, size_, run, estimators_.size()),
+                                   diagnostics_, compiled_);
     if (!prepared) return {};
     const double step = 1.0 / static_cast<double>(estimators_.size()), from = static_cast<double>(run.number) * step;
     ProgressObserver observer(progress_, e.name + (run.again ? ", again" : ""), from, from + step);
@@ -323,7 +323,7 @@ class SceneVerifier {
   const std::atomic<bool>& stop_;
 
   std::pair<int, int> size_;
-  std::shared_ptr<const Scene> scene_;
+  CompiledScene compiled_;
   std::vector<Variant> estimators_;
   double level_ = 0;
   SamplePeaks peaks_;
