@@ -210,7 +210,7 @@ CompiledScene compile(const SceneDescription& description, const CompileOptions&
   const auto info = std::make_shared<SceneInfo>();
   SceneFiles own, &files = options.files ? *options.files : own;
   if (options.files) scene->light_data.kept = &files.light_images;
-  TextureBuilder textures(scene->textures, description.folder);
+  TextureBuilder textures(scene->textures, description.folder, description.images);
   const TextureOrder build_textures(description, textures, diagnostics);
   for (const TextureDesc& t : description.textures) ++info->summary.textures[t.use.model];
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, *info, diagnostics);
