@@ -10,9 +10,9 @@
 namespace etd {
 namespace {
 
-std::unique_ptr<Scene> compile_text(const std::string& text, Diagnostics& diagnostics) {
+std::shared_ptr<const Scene> compile_text(const std::string& text, Diagnostics& diagnostics) {
   const SceneDescription description = read_pbrt_text("WorldBegin " + text, "test", ".", diagnostics);
-  return compile(description, {16, 16}, diagnostics);
+  return compile(description, {16, 16}, diagnostics).scene;
 }
 
 // Ten layers, each there by a half, and one that is: what a ray meets first is distributed geometrically.

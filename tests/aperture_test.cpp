@@ -9,12 +9,10 @@
 #include "core/hash.h"
 #include "model_uses.h"
 #include "render_helper.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
 
 struct Made {
   Aperture aperture;

@@ -7,7 +7,7 @@
 
 #include "core/warp.h"
 #include "samplers/sampler.h"
-#include "verify/battery_models.h"
+#include "verify/battery/models.h"
 
 namespace etd {
 namespace {

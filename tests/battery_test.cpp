@@ -1,6 +1,6 @@
 // The battery of `etendue verify` over everything but closures and lights, which have suites of their own
 // (bsdf_battery_test.cpp, light_battery_test.cpp), with fewer samples.
-#include "verify/battery.h"
+#include "verify/battery/battery.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "scene/registry.h"
 #include "slow_build.h"
-#include "verify/parameter_grid.h"
+#include "verify/battery/parameter_grid.h"
 
 namespace etd {
 namespace {

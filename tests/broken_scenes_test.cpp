@@ -53,7 +53,7 @@ TEST_P(BrokenScene, SaysExactlyWhatIsWrong) {
   Diagnostics diagnostics(allowed);
   const SceneDescription scene = read_pbrt(kFolder / (name + ".pbrt"), diagnostics);
   const RenderSettings settings = make_settings(scene, {}, diagnostics);
-  compile(scene, {settings.width, settings.height}, diagnostics);
+  compile(scene, {settings.film.width, settings.film.height}, diagnostics);
   EXPECT_EQ(diagnostics.has_errors(), !allowed);
   const std::string messages = with_relative_paths(diagnostics.format_all());
   const fs::path expected = kFolder / (name + ".expected");

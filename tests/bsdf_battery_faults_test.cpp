@@ -7,7 +7,7 @@
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
 #include "bsdfs/lambert.h"
-#include "verify/battery_bsdf.h"
+#include "verify/battery/bsdf/bsdf.h"
 
 namespace etd {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/battery_bsdf.h"
+#include "verify/battery/bsdf/bsdf.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "slow_build.h"
-#include "verify/battery.h"
+#include "verify/battery/battery.h"
 
 namespace etd {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/hash.h"
 #include "slow_build.h"
-#include "verify/camera_model.h"
+#include "verify/battery/camera/model.h"
 
 namespace etd {
 namespace {

@@ -1,7 +1,7 @@
 // Verdicts on pairs of estimates whose truth is known: that equal ones are called equal as often as promised, whatever
 // their noise, and different ones different. Seeds are fixed, so nothing here fails by chance: where a bound is
 // statistical, the probability that another seed would break it is stated.
-#include "verify/compare.h"
+#include "verify/statistics/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/pbrt/reader.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
 
@@ -14,19 +15,23 @@ namespace {
 const std::string kTriangle = "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ] ";
 const std::string kLight = "AreaLightSource \"diffuse\" \"rgb L\" [ 2 2 2 ] ";
 
-std::unique_ptr<Scene> compile_world(const std::string& world, Diagnostics& diagnostics,
-                                     const std::filesystem::path& folder = {}, const std::string& camera = "") {
+CompiledScene compile_world(const std::string& world, Diagnostics& diagnostics,
+                            const std::filesystem::path& folder = {}, const std::string& camera = "") {
   const SceneDescription d =
       read_pbrt_text(camera + "Camera \"perspective\"\nWorldBegin\n" + world, "test", folder, diagnostics);
   return compile(d, {64, 64}, diagnostics);
 }
 
 // `camera`: transforms in front of it.
-std::unique_ptr<Scene> scene_of(const std::string& world, const std::string& camera = "") {
+CompiledScene compiled_of(const std::string& world, const std::string& camera = "") {
   Diagnostics diagnostics;
-  auto scene = compile_world(world, diagnostics, {}, camera);
-  EXPECT_TRUE(scene) << diagnostics.format_all();
-  return scene;
+  CompiledScene compiled = compile_world(world, diagnostics, {}, camera);
+  EXPECT_TRUE(compiled.scene) << diagnostics.format_all();
+  return compiled;
+}
+
+std::shared_ptr<const Scene> scene_of(const std::string& world, const std::string& camera = "") {
+  return compiled_of(world, camera).scene;
 }
 
 // The surface that a ray from a point of the file's world meets.
@@ -37,51 +42,52 @@ std::optional<SurfaceHit> look(const Scene& scene, Point3d from, Vec3 direction)
 }
 
 TEST(Compile, EmptyWorlds) {
-  const auto scene = scene_of("");
-  EXPECT_TRUE(scene->summary.bounds.empty());
+  const auto [scene, info] = compiled_of("");
+  EXPECT_TRUE(info->summary.bounds.empty());
   EXPECT_FALSE(look(*scene, {0, 0, 0}, {0, 0, 1}));
   EXPECT_FALSE(scene->light_sampler.sample(0.5));
-  const auto only_light = scene_of("LightSource \"infinite\"");
+  const auto [only_light, only_light_info] = compiled_of("LightSource \"infinite\"");
   EXPECT_EQ(only_light->infinite_lights.size(), 1u);
-  EXPECT_EQ(only_light->summary.lights.at("infinite"), 1u);
-  const auto invisible = scene_of("Material \"interface\"\n" + kTriangle + "\nShape \"sphere\"\n");
+  EXPECT_EQ(only_light_info->summary.lights.at("infinite"), 1u);
+  const auto [invisible, invisible_info] = compiled_of("Material \"interface\"\n" + kTriangle + "\nShape \"sphere\"\n");
   EXPECT_TRUE(invisible->geometry.meshes.empty());
   EXPECT_TRUE(invisible->geometry.quadrics.empty());
-  EXPECT_TRUE(invisible->summary.bounds.empty());
+  EXPECT_TRUE(invisible_info->summary.bounds.empty());
 }
 
 TEST(Compile, AnInstanceUsedOnceBecomesPartOfTheWorld) {
-  const auto scene = scene_of("ObjectBegin \"o\"\n Translate 0 0 1 " + kTriangle +
-                              "\nShape \"sphere\"\nObjectEnd\n"
-                              "Translate 5 0 0 ObjectInstance \"o\"\n");
+  const auto [scene, info] = compiled_of("ObjectBegin \"o\"\n Translate 0 0 1 " + kTriangle +
+                                         "\nShape \"sphere\"\nObjectEnd\n"
+                                         "Translate 5 0 0 ObjectInstance \"o\"\n");
   EXPECT_EQ(scene->geometry.groups.size(), 1u);
   EXPECT_TRUE(scene->geometry.instances.empty());
-  EXPECT_EQ(scene->summary.triangles, 1u);
-  EXPECT_EQ(scene->summary.shapes.at("sphere"), 1u);
+  EXPECT_EQ(info->summary.triangles, 1u);
+  EXPECT_EQ(info->summary.shapes.at("sphere"), 1u);
   EXPECT_TRUE(look(*scene, {5.25, 0.25, 7}, {0, 0, -1}));
 }
 
 TEST(Compile, SharedObjectsAreStoredOnce) {
-  const auto scene = scene_of("ObjectBegin \"o\" " + kTriangle +
-                              " Translate 0 0 5 Shape \"sphere\" ObjectEnd\n"
-                              "ObjectBegin \"unused\" " +
-                              kTriangle +
-                              " ObjectEnd\n"
-                              "AttributeBegin Translate 10 0 0 ObjectInstance \"o\" AttributeEnd\n"
-                              "AttributeBegin Translate -10 0 0 Scale 2 2 2 ObjectInstance \"o\" AttributeEnd\n" +
-                              kTriangle);
+  const auto [scene, info] =
+      compiled_of("ObjectBegin \"o\" " + kTriangle +
+                  " Translate 0 0 5 Shape \"sphere\" ObjectEnd\n"
+                  "ObjectBegin \"unused\" " +
+                  kTriangle +
+                  " ObjectEnd\n"
+                  "AttributeBegin Translate 10 0 0 ObjectInstance \"o\" AttributeEnd\n"
+                  "AttributeBegin Translate -10 0 0 Scale 2 2 2 ObjectInstance \"o\" AttributeEnd\n" +
+                  kTriangle);
   EXPECT_EQ(scene->geometry.groups.size(), 2u);
   EXPECT_EQ(scene->geometry.instances.size(), 2u);
   EXPECT_EQ(scene->geometry.meshes.size(), 2u);
-  EXPECT_EQ(scene->summary.triangles, 2u);
-  EXPECT_EQ(scene->summary.instanced_triangles, 3u);
+  EXPECT_EQ(info->summary.triangles, 2u);
+  EXPECT_EQ(info->summary.instanced_triangles, 3u);
   for (const Point3d from : {Point3d{10.25, 0.25, -3}, Point3d{-9.5, 0.5, -3}, Point3d{0.25, 0.25, -3}}) {
     const auto hit = look(*scene, from, {0, 0, 1});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->point.p.z + scene->origin.z, 0, 1e-5);
   }
   EXPECT_FALSE(look(*scene, {-9.5, 0.5, -30}, {0, 1, 0}));
-  const Bounds3& b = scene->summary.bounds;
+  const Bounds3& b = info->summary.bounds;
   EXPECT_NEAR(b.lo.x, -12, 1e-6);
   EXPECT_NEAR(b.hi.x, 11, 1e-6);
   EXPECT_NEAR(b.hi.z, 12, 1e-6);
@@ -91,16 +97,17 @@ TEST(Compile, NestedInstancesBecomeOneLevel) {
   const std::string inner = "ObjectBegin \"inner\" " + kTriangle + " ObjectEnd\n";
   const std::string outer =
       "ObjectBegin \"outer\" ObjectInstance \"inner\" Translate 0 0 1 ObjectInstance \"inner\" ObjectEnd\n";
-  const auto scene = scene_of(inner + outer + "ObjectInstance \"outer\" Translate 5 0 0 ObjectInstance \"outer\"\n");
+  const auto [scene, info] =
+      compiled_of(inner + outer + "ObjectInstance \"outer\" Translate 5 0 0 ObjectInstance \"outer\"\n");
   EXPECT_EQ(scene->geometry.groups.size(), 2u);
   EXPECT_EQ(scene->geometry.instances.size(), 2u);
-  EXPECT_EQ(scene->summary.triangles, 2u);  // both of "outer"
-  EXPECT_EQ(scene->summary.instanced_triangles, 4u);
+  EXPECT_EQ(info->summary.triangles, 2u);  // both of "outer"
+  EXPECT_EQ(info->summary.instanced_triangles, 4u);
   // An outer one that is used once dissolves, and leaves instances of the inner one.
-  const auto dissolved = scene_of(inner + outer + "Translate 5 0 0 ObjectInstance \"outer\"\n");
+  const auto [dissolved, dissolved_info] = compiled_of(inner + outer + "Translate 5 0 0 ObjectInstance \"outer\"\n");
   EXPECT_EQ(dissolved->geometry.instances.size(), 2u);
-  EXPECT_EQ(dissolved->summary.triangles, 1u);
-  EXPECT_EQ(dissolved->summary.instanced_triangles, 2u);
+  EXPECT_EQ(dissolved_info->summary.triangles, 1u);
+  EXPECT_EQ(dissolved_info->summary.instanced_triangles, 2u);
   const auto hit = look(*dissolved, {5.25, 0.25, 9}, {0, 0, -1});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->point.p.z + dissolved->origin.z, 1, 1e-5);
@@ -113,10 +120,10 @@ TEST(Compile, EmittersInObjectsBecomeLightsOfTheWorld) {
       "AttributeBegin Translate 5 0 0 ObjectInstance \"x\" AttributeEnd\n"
       "AttributeBegin Translate 9 0 0 ObjectInstance \"x\" AttributeEnd ObjectInstance \"x\"\n";
   const std::string holder = "ObjectBegin \"x\" ObjectInstance \"lamp\" " + kTriangle + " ObjectEnd\n";
-  const auto scene = scene_of(lamp + holder + three);
+  const auto [scene, info] = compiled_of(lamp + holder + three);
   EXPECT_TRUE(scene->geometry.instances.empty());
   ASSERT_EQ(scene->lights.size(), 3u);
-  EXPECT_EQ(scene->summary.lights.at("diffuse area light"), 3u);
+  EXPECT_EQ(info->summary.lights.at("diffuse area light"), 3u);
   std::vector<bool> met(3, false);
   for (const double x : {0.25, 5.25, 9.25})
     for (uint32_t light = 0; light < 3; ++light) {
@@ -231,16 +238,16 @@ TEST(Compile, MirroredInstancesAreOrientedAsIfFlattened) {
 }
 
 TEST(Compile, MaterialsAndTexturesReachTheSurface) {
-  const auto scene = scene_of(
+  const auto [scene, info] = compiled_of(
       "Texture \"half\" \"float\" \"constant\" \"float value\" 0.5\n"
       "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"base\" \"texture scale\" \"half\"\n"
       "Texture \"base\" \"spectrum\" \"constant\" \"rgb value\" [ 1 0.5 0.25 ]\n"                      // after its use
       "Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"base\" \"texture scale\" \"half\"\n"  // a name twice
       "Material \"diffuse\" \"texture reflectance\" \"half\"\n" +
       kTriangle);
-  EXPECT_EQ(scene->summary.textures.at("constant"), 2u);
-  EXPECT_EQ(scene->summary.textures.at("scale"), 2u);
-  EXPECT_EQ(scene->summary.materials.at("diffuse"), 1u);
+  EXPECT_EQ(info->summary.textures.at("constant"), 2u);
+  EXPECT_EQ(info->summary.textures.at("scale"), 2u);
+  EXPECT_EQ(info->summary.materials.at("diffuse"), 1u);
   const auto hit = look(*scene, {0.25, 0.25, 10}, {0, 0, -1});
   ASSERT_TRUE(hit);
   const Spectrum albedo = hit->material->closure({hit->point.uv}, scene->textures).albedo({0, 0, 1});
@@ -271,7 +278,7 @@ TEST(Compile, EveryMistakeIsReportedTogether) {
   std::string world;
   for (const auto& [line, message] : mistakes) world += line + "\n";
   Diagnostics diagnostics;
-  EXPECT_FALSE(compile_world(world, diagnostics, folder.path()));
+  EXPECT_FALSE(compile_world(world, diagnostics, folder.path()).scene);
   const std::string all = diagnostics.format_all();
   int line = 2;
   for (const auto& [text, message] : mistakes) {
@@ -288,8 +295,9 @@ TEST(Compile, EveryMistakeIsReportedTogether) {
 TEST(Compile, ALightWithoutAnAreaIsWorthAWarning) {
   Diagnostics diagnostics;
   EXPECT_TRUE(compile_world(
-      kLight + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0 ] \"integer indices\" [ 0 1 2 ]",
-      diagnostics));
+                  kLight + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0 ] \"integer indices\" [ 0 1 2 ]",
+                  diagnostics)
+                  .scene);
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(diagnostics.all()[0].severity, Severity::kWarning);
   EXPECT_EQ(diagnostics.all()[0].message, "an area light on a mesh without an area gives no light");
@@ -301,7 +309,7 @@ TEST(Compile, GeometryBeyondTheAcceleratorsReachIsAnError) {
         "ObjectBegin \"o\" " + kTriangle +
             " ObjectEnd ObjectInstance \"o\" Translate 0 -1e20 0 ObjectInstance \"o\""}) {
     Diagnostics diagnostics;
-    EXPECT_FALSE(compile_world(world, diagnostics));
+    EXPECT_FALSE(compile_world(world, diagnostics).scene);
     EXPECT_EQ(diagnostics.error_count(), 1) << world;
     EXPECT_NE(diagnostics.format_all().find("too far away"), std::string::npos);
   }
@@ -316,7 +324,7 @@ TEST(Compile, SingularTransformsOfInstancesAndCamera) {
   d.instances.push_back({0, Transform::scale({1, 0, 1}), {}});
   d.camera_to_world = Transform::scale({0, 1, 1});
   Diagnostics diagnostics;
-  EXPECT_FALSE(compile(d, {8, 8}, diagnostics));
+  EXPECT_FALSE(compile(d, {8, 8}, diagnostics).scene);
   EXPECT_EQ(diagnostics.error_count(), 2);
 }
 

@@ -218,13 +218,13 @@ TEST(StoppingByTime, FinishesTheFirstPassInAnyCase) {
 
 TEST(StoppingByTime, WholePassesAreTheSameAsWithoutALimit) {
   FilmSettings small = kFilm;
-  small.crop = {0, 0, 8, 8};
+  small.crop = {0, 0, 8, 8};  // one item: a pass that has begun is not cut off
   Film film(small);
   const RenderResult result = stop_noise({.spp = kMaxSpp, .seconds = 0.1}, film);
   EXPECT_EQ(result.stopped_by, StoppedBy::kTime);
   EXPECT_GE(result.spp, 2u);
-  if (!result.unequal) expect_same_bits(film, render_noise(small, 2, 16, result.spp));
-  for (int x = 0; x < 8; ++x) EXPECT_GE(film.total(x, 3).count, result.spp);
+  EXPECT_FALSE(result.unequal);
+  expect_same_bits(film, render_noise(small, 2, 16, result.spp));
 }
 
 // Notes in which floating-point mode and on how many threads its items run.

@@ -5,12 +5,10 @@
 
 #include "core/hash.h"
 #include "core/warp.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
 
 Image grey(int width, int height, std::vector<float> values) { return {width, height, 1, std::move(values)}; }
 

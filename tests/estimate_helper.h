@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/hash.h"
-#include "verify/estimate.h"
+#include "verify/statistics/estimate.h"
 
 namespace etd {
 

@@ -6,7 +6,7 @@
 
 #include "render_helper.h"
 #include "second_run.h"
-#include "verify/compare_films.h"
+#include "verify/statistics/compare_films.h"
 
 namespace etd {
 

@@ -67,8 +67,7 @@ struct Shot {
 Shot shoot(const std::string& text) {
   Diagnostics diagnostics;
   const SceneDescription d = read_pbrt_text(text, "test", source_path("tests/scenes"), diagnostics);
-  const auto scene = compile(d, {kWidth, kHeight}, diagnostics);
-  if (!scene) return {{}, diagnostics.format_all()};
+  if (!compile(d, {kWidth, kHeight}, diagnostics).scene) return {{}, diagnostics.format_all()};
   RenderOverrides overrides;
   overrides.seed = 1;
   return {picture(render_description(d, overrides)), diagnostics.format_all()};
@@ -238,7 +237,7 @@ TEST(Far, ASunOfAnyPowerLeavesTheLampsTheirSamples) {
       "Translate 1e8 0 1e8 AreaLightSource \"diffuse\" \"rgb L\" [ 1e-6 1e-6 1e-6 ] Shape \"sphere\" \"float "
       "radius\" 1e6");
   Diagnostics diagnostics;
-  const auto scene = compile(read_pbrt_text(sun, "test", {}, diagnostics), {kWidth, kHeight}, diagnostics);
+  const auto scene = compile(read_pbrt_text(sun, "test", {}, diagnostics), {kWidth, kHeight}, diagnostics).scene;
   ASSERT_TRUE(scene) << diagnostics.format_all();
   for (uint32_t i = 0; i < scene->lights.size(); ++i) EXPECT_GT(scene->light_sampler.probability(i), 0.2f);
 }

@@ -6,7 +6,7 @@
 
 #include "core/hash.h"
 #include "model_uses.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {

@@ -9,6 +9,7 @@
 #include "io/image_limits.h"
 #include "io/obj.h"
 #include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
 
@@ -26,7 +27,7 @@ struct Compiled {
   explicit Compiled(const std::string& world, const Limits& limits = {}, const std::filesystem::path& folder = ".")
       : diagnostics(false, limits) {
     description = read_pbrt_text("WorldBegin\n" + world, "test.pbrt", folder, diagnostics);
-    scene = compile(description, {.width = 4, .height = 4, .spp = 1, .textures = {}}, diagnostics);
+    compiled = compile(description, {.width = 4, .height = 4, .spp = 1, .textures = {}}, diagnostics);
   }
   std::string messages() const { return diagnostics.format_all(); }
   bool says(std::string_view part) const { return messages().find(part) != std::string::npos; }
@@ -34,7 +35,7 @@ struct Compiled {
 
   Diagnostics diagnostics;
   SceneDescription description;
-  std::unique_ptr<Scene> scene;
+  CompiledScene compiled;
 };
 
 // Objects of which each holds two instances of the one before it, around `inside`.
@@ -57,11 +58,11 @@ TEST(Growth, InstancesOfInstancesEndAtTheLimit) {
     const Compiled c(doubling_objects(40, inside), limits);
     EXPECT_TRUE(c.says("make too many copies")) << inside << c.messages();
     EXPECT_TRUE(c.says("the limit is 1000; --limit copies=N raises it")) << inside << c.messages();
-    EXPECT_EQ(c.scene, nullptr);
+    EXPECT_EQ(c.compiled.scene, nullptr);
   }
   const Compiled few(doubling_objects(9, "Shape \"sphere\"\n"));
-  ASSERT_NE(few.scene, nullptr) << few.messages();
-  EXPECT_EQ(few.scene->summary.bounds.hi.y, 3 * 8 + 1);
+  ASSERT_NE(few.compiled.scene, nullptr) << few.messages();
+  EXPECT_EQ(few.compiled.info->summary.bounds.hi.y, 3 * 8 + 1);
 }
 
 TEST(Growth, WhatASceneListsIsNoCopy) {
@@ -69,8 +70,8 @@ TEST(Growth, WhatASceneListsIsNoCopy) {
   limits.copies = 10;
   const std::string object = "ObjectBegin \"o\"\nShape \"sphere\"\nShape \"disk\"\nObjectEnd\n";
   const Compiled c(object + repeated("Translate 1 0 0 ObjectInstance \"o\"\n", 1000), limits);
-  ASSERT_NE(c.scene, nullptr) << c.messages();
-  EXPECT_EQ(c.scene->geometry.instances.size(), 1000u);
+  ASSERT_NE(c.compiled.scene, nullptr) << c.messages();
+  EXPECT_EQ(c.compiled.scene->geometry.instances.size(), 1000u);
 }
 
 TEST(Growth, DeepNestingIsAnErrorAndNoCrash) {

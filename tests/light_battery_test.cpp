@@ -3,8 +3,8 @@
 #include <set>
 
 #include "slow_build.h"
-#include "verify/battery.h"
-#include "verify/battery_light.h"
+#include "verify/battery/battery.h"
+#include "verify/battery/light/light.h"
 
 namespace etd {
 namespace {

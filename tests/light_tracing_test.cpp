@@ -208,8 +208,8 @@ TEST(LightTracing, TakesTheParametersOfTheScenesLineThatItHas) {
             std::string::npos)
       << notes;
   EXPECT_EQ(notes.find("error"), std::string::npos) << notes;
-  EXPECT_EQ(s.replicates, 8u);
-  EXPECT_FALSE(s.features);
+  EXPECT_EQ(s.film.replicates, 8u);
+  EXPECT_FALSE(s.film.features);
 }
 
 TEST(LightTracing, IsNamedByScenesToo) {

@@ -24,14 +24,14 @@ struct Lights {
     folder.write("odd.pfm", encode_pfm(4, 3, std::vector<float>(36, 1.0f)));
     wide[7] = kInfinity;
     folder.write("infinite.pfm", encode_pfm(4, 2, wide));
-    scene =
-        compile(read_pbrt_text("WorldBegin\n" + text, "test.pbrt", folder.path(), diagnostics), {8, 8}, diagnostics);
+    scene = compile(read_pbrt_text("WorldBegin\n" + text, "test.pbrt", folder.path(), diagnostics), {8, 8}, diagnostics)
+                .scene;
   }
   const Light& only() const { return scene->lights.at(0); }
 
   TempFolder folder;
   Diagnostics diagnostics;
-  std::unique_ptr<Scene> scene;
+  std::shared_ptr<const Scene> scene;
 };
 
 std::string messages(const std::string& text) { return Lights(text).diagnostics.format_all(); }

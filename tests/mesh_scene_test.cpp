@@ -9,9 +9,10 @@
 #include "io/mesh.h"
 #include "render/session.h"
 #include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 #include "temp_folder.h"
-#include "verify/film_mean.h"
+#include "verify/statistics/film_mean.h"
 
 namespace etd {
 namespace {
@@ -95,8 +96,8 @@ TEST(MeshShapes, OffAndObjInTheLanguage) {
     c.description = read_pbrt_text(text, "test", folder.path(), c.diagnostics);
     prepare(c);
     ASSERT_TRUE(c.prepared) << c.messages();
-    const Scene& scene = *c.prepared->scene;
-    EXPECT_EQ(scene.summary.triangles, 6u);
+    const Scene& scene = *c.prepared->compiled.scene;
+    EXPECT_EQ(c.prepared->compiled.info->summary.triangles, 6u);
     EXPECT_EQ(scene.geometry.meshes.size(), materials ? 5u : 2u);
     EXPECT_EQ(scene.lights.size(), materials ? 1u : 0u);
     EXPECT_EQ(c.messages().find("materials that no MTL file has, the current one is used: gone") != std::string::npos,
@@ -229,7 +230,7 @@ TEST(MeshShapes, AFileIsReadAndReportedOnce) {
     SceneFiles files;
     const auto prepared = prepare_render(scene, {}, diagnostics, {}, &files);
     ASSERT_TRUE(prepared) << diagnostics.format_all();
-    EXPECT_EQ(prepared->scene->summary.triangles, 20u);
+    EXPECT_EQ(prepared->compiled.info->summary.triangles, 20u);
     const auto mesh = [&](size_t i) { return files.shapes.at(&scene.shapes.at(i)).mesh; };
     for (size_t i = 1; i < 10; ++i) EXPECT_EQ(mesh(i), mesh(0)) << i;
     for (size_t i = 11; i < 15; ++i) EXPECT_EQ(mesh(i), mesh(10)) << i;

@@ -8,8 +8,6 @@
 namespace etd {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 // The distribution from its definition in slopes and angles, in double: independent of the code under test.
 struct GgxReference {
   double ax, ay;

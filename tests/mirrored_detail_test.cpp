@@ -71,7 +71,7 @@ std::string matrix(const Transform& t) {
 class MirroredDetail : public ::testing::TestWithParam<Subject> {
  protected:
   // The subject of this material alone in a world.
-  std::unique_ptr<Scene> scene_of(const Setting& s, const std::string& material) const {
+  std::shared_ptr<const Scene> scene_of(const Setting& s, const std::string& material) const {
     std::string shape = material + (s.reversed ? "ReverseOrientation\n" : "") + GetParam().text + "\n";
     // An object that is used twice becomes a group with a space of its own.
     std::string world = "WorldBegin\n";
@@ -81,7 +81,7 @@ class MirroredDetail : public ::testing::TestWithParam<Subject> {
     else
       world += matrix(s.to_world) + shape;
     Diagnostics diagnostics;
-    auto scene = compile(read_pbrt_text(world, "test", folder_.path(), diagnostics), {16, 16}, diagnostics);
+    auto scene = compile(read_pbrt_text(world, "test", folder_.path(), diagnostics), {16, 16}, diagnostics).scene;
     EXPECT_TRUE(scene) << diagnostics.format_all();
     return scene;
   }

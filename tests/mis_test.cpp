@@ -1,6 +1,6 @@
 // Weights of multiple importance sampling: whatever the densities, those of the two techniques sum to 1, and one that
 // is alone has all of it.
-#include "integrators/mis.h"
+#include "core/mis.h"
 
 #include <gtest/gtest.h>
 

@@ -81,7 +81,8 @@ TEST_F(MissingFile, IsAnsweredInEveryDirective) {
         "WorldBegin\nAreaLightSource \"diffuse\" \"string filename\" \"a\\\\x.exr\"\nShape \"sphere\"",
         "Camera \"perspective\" \"string aperture\" \"a\\\\x.exr\" \"float lensradius\" 1\nWorldBegin"}) {
     Diagnostics diagnostics;
-    EXPECT_FALSE(compile(read_pbrt_text(text, "test", folder_.path(), diagnostics), {16, 16}, diagnostics)) << text;
+    EXPECT_FALSE(compile(read_pbrt_text(text, "test", folder_.path(), diagnostics), {16, 16}, diagnostics).scene)
+        << text;
     EXPECT_EQ(diagnostics.error_count(), 1) << diagnostics.format_all();
     const std::string all = diagnostics.format_all();
     EXPECT_NE(all.find("it was looked for in " + here()), std::string::npos) << all;

@@ -20,7 +20,7 @@
 #include "params/declaration.h"
 #include "scene/description.h"
 #include "scene_answers.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 

@@ -4,18 +4,21 @@
 #include "formats/pbrt/reader.h"
 #include "render_helper.h"
 #include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 
 namespace etd {
 namespace {
 
-std::unique_ptr<Scene> scene_of(const std::string& world) {
+CompiledScene compile_world(const std::string& world) {
   Diagnostics diagnostics;
   const SceneDescription d = read_pbrt_text("Camera \"perspective\"\nWorldBegin\n" + world, "test", {}, diagnostics);
-  auto scene = compile(d, {64, 64}, diagnostics);
-  EXPECT_TRUE(scene) << diagnostics.format_all();
-  return scene;
+  CompiledScene compiled = compile(d, {64, 64}, diagnostics);
+  EXPECT_TRUE(compiled.scene) << diagnostics.format_all();
+  return compiled;
 }
+
+std::shared_ptr<const Scene> scene_of(const std::string& world) { return compile_world(world).scene; }
 
 // Returns where a ray at this time meets the scene, in its file's coordinates.
 std::optional<Point3d> look(const Scene& scene, Point3d from, Vec3 direction, float time) {
@@ -27,12 +30,12 @@ std::optional<Point3d> look(const Scene& scene, Point3d from, Vec3 direction, fl
 const std::string kMoveX = "ActiveTransform EndTime Translate 2 0 0 ActiveTransform All\n";
 
 TEST(Motion, WhatMovesAloneHasASpaceOfItsOwn) {
-  const auto scene = scene_of("Translate 0 0 5\nShape \"sphere\" \"float radius\" 1\n" + kMoveX +
-                              "Shape \"sphere\" \"float radius\" 0.5\n");
+  const auto [scene, info] = compile_world("Translate 0 0 5\nShape \"sphere\" \"float radius\" 1\n" + kMoveX +
+                                           "Shape \"sphere\" \"float radius\" 0.5\n");
   EXPECT_TRUE(scene->moves);
   EXPECT_EQ(scene->geometry.instances.size(), 1u);
   EXPECT_EQ(scene->geometry.groups.size(), 2u);
-  EXPECT_NEAR(scene->summary.bounds.hi.x, 2.5, 1e-6);
+  EXPECT_NEAR(info->summary.bounds.hi.x, 2.5, 1e-6);
   EXPECT_NEAR(look(*scene, {2, 0, 0}, {0, 0, 1}, 1.0f)->z, 4.5, 1e-5);
   EXPECT_NEAR(look(*scene, {1.25, 0, 0}, {0, 0, 1}, 0.5f)->z, 5 - std::sqrt(0.25 - 0.0625), 1e-5);
   EXPECT_FALSE(look(*scene, {2, 0, 0}, {0, 0, 1}, 0.5f));

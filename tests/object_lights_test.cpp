@@ -5,6 +5,7 @@
 #include "formats/pbrt/reader.h"
 #include "render_helper.h"
 #include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/place_lights.h"
 #include "scene/scene.h"
 
@@ -23,9 +24,13 @@ Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ] "integer 
 Shape "sphere" "float radius" 0.7
 )";
 
-std::unique_ptr<Scene> scene_of(const std::string& world, Diagnostics& diagnostics) {
+CompiledScene compile_world(const std::string& world, Diagnostics& diagnostics) {
   const std::string folder = source_path("tests/scenes/closed").string();
   return compile(read_pbrt_text(kView + world, "test", folder, diagnostics), {12, 8}, diagnostics);
+}
+
+std::shared_ptr<const Scene> scene_of(const std::string& world, Diagnostics& diagnostics) {
+  return compile_world(world, diagnostics).scene;
 }
 
 std::string in_object(const std::string& light) { return "ObjectBegin \"o\"\n" + light + "\nObjectEnd\n"; }
@@ -51,19 +56,19 @@ class ObjectLight : public ::testing::TestWithParam<Kind> {};
 TEST_P(ObjectLight, ShinesOnceForEachInstance) {
   const std::string& light = GetParam().light;
   Diagnostics diagnostics;
-  const auto none = scene_of(in_object(light), diagnostics);
+  const auto [none, none_info] = compile_world(in_object(light), diagnostics);
   ASSERT_TRUE(none) << diagnostics.format_all();
   EXPECT_TRUE(none->lights.empty());
-  EXPECT_TRUE(none->summary.lights.empty());
+  EXPECT_TRUE(none_info->summary.lights.empty());
   EXPECT_NE(diagnostics.format_all().find("shines nowhere, because its object has no instance"), std::string::npos);
 
   Diagnostics none_wrong;
-  const auto two =
-      scene_of(in_object(light) + "ObjectInstance \"o\"\nTranslate 0.5 0 0\nObjectInstance \"o\"\n", none_wrong);
+  const auto [two, two_info] =
+      compile_world(in_object(light) + "ObjectInstance \"o\"\nTranslate 0.5 0 0\nObjectInstance \"o\"\n", none_wrong);
   ASSERT_TRUE(two) << none_wrong.format_all();
   ASSERT_EQ(two->lights.size(), 2u);
-  EXPECT_EQ(two->summary.lights.begin()->second, 2u);
-  EXPECT_EQ(two->names.lights.size(), 2u);
+  EXPECT_EQ(two_info->summary.lights.begin()->second, 2u);
+  EXPECT_EQ(two_info->names.lights.size(), 2u);
   EXPECT_EQ(luminance(two->lights[0].power()), luminance(two->lights[1].power()));
   // Both are chosen alike by power, and in a quarter of all cases by what the camera gets of them.
   EXPECT_GE(two->light_sampler.probability(0), 0.375f);

@@ -8,8 +8,8 @@
 
 #include "estimate_helper.h"
 #include "render_helper.h"
-#include "verify/compare.h"
-#include "verify/difference.h"
+#include "verify/difference/difference.h"
+#include "verify/statistics/compare.h"
 
 namespace etd {
 namespace {

@@ -13,8 +13,6 @@
 namespace etd {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 // The first and the last entries of Perlin's table; the whole is checked by its sum of products below.
 const std::vector<int>& permutation() {
   static const std::vector<int> p = {

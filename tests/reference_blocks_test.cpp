@@ -10,7 +10,7 @@
 #include "render_helper.h"
 #include "second_run.h"
 #include "shared_path.h"
-#include "verify/compare.h"
+#include "verify/statistics/compare.h"
 
 namespace etd {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/settings.h"
-#include "verify/film_mean.h"
+#include "verify/statistics/film_mean.h"
 
 namespace etd {
 

@@ -15,6 +15,7 @@
 #include "render/provenance.h"
 #include "render_helper.h"
 #include "same_bits.h"
+#include "scene/info.h"
 #include "temp_folder.h"
 
 namespace etd {
@@ -32,7 +33,9 @@ struct Prepared {
     render = prepare_render(read_pbrt(source_path(file), diagnostics), overrides, diagnostics);
     EXPECT_TRUE(render) << diagnostics.format_all();
   }
-  ReplayedScene scene() const { return {*render->scene, diagnostics.sources(), render->settings.sensor}; }
+  ReplayedScene scene() const {
+    return {*render->compiled.scene, render->compiled.info->names, diagnostics.sources(), render->settings.film.sensor};
+  }
   PathRecord replay(const SampleId& id) const {
     PathRecord path;
     EXPECT_TRUE(render->integrator->replay(id, path));
@@ -73,22 +76,22 @@ void expect_replays(const std::string& file, const RenderOverrides& overrides) {
   const RenderSettings& s = prepared.render->settings;
   size_t lit = 0;
   Film again(finished.film.settings());
-  for (int y = s.crop.y0; y < s.crop.y1; ++y)
-    for (int x = s.crop.x0; x < s.crop.x1; ++x) {
+  for (int y = s.film.crop.y0; y < s.film.crop.y1; ++y)
+    for (int x = s.film.crop.x0; x < s.film.crop.x1; ++x) {
       const std::string where = fmt::format("{} pixel {},{}", file, x, y);
-      for (uint32_t replicate = 0; replicate < s.replicates; ++replicate) {
-        for (Pass pass = first_pass(s.spp / s.replicates); pass.begin < s.spp / s.replicates;
-             pass = next_pass(pass, s.spp / s.replicates)) {
+      for (uint32_t replicate = 0; replicate < s.film.replicates; ++replicate) {
+        for (Pass pass = first_pass(s.spp / s.film.replicates); pass.begin < s.spp / s.film.replicates;
+             pass = next_pass(pass, s.spp / s.film.replicates)) {
           PixelSums sums;
           for (uint32_t index = pass.begin; index < pass.end; ++index) {
-            const PathRecord path = prepared.replay({x, y, index * s.replicates + replicate});
+            const PathRecord path = prepared.replay({x, y, index * s.film.replicates + replicate});
             EXPECT_EQ(path.replicate, replicate);
             EXPECT_EQ(path.index, index);
             expect_same_light(sum_of_contributions(path), path.sample, where);
             lit += is_black(path.sample.emission + path.sample.direct + path.sample.indirect) ? 0 : 1;
             PixelSample exposed = path.sample;
             InvalidSamples none;
-            admit(path.id, s.sensor, exposed, none);
+            admit(path.id, s.film.sensor, exposed, none);
             sums.add(exposed);
           }
           again.add(x, y, replicate, sums);
@@ -206,7 +209,8 @@ TEST(Replay, NamesWhatThePathMeets) {
   o.spp = 64;
   const auto prepared = prepare_render(read_pbrt_text(kScene, "ball.pbrt", ".", diagnostics), o, diagnostics);
   ASSERT_TRUE(prepared) << diagnostics.format_all();
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   size_t red = 0, blue = 0, lamp = 0, sky = 0;
   for (uint32_t n = 0; n < 64; ++n) {
     PathRecord path;
@@ -253,7 +257,8 @@ TEST(Replay, ShowsInvalidSamplesAsTheyAre) {
   PathRecord path;
   ASSERT_TRUE(prepared->integrator->replay(*invalid.first, path));
   EXPECT_FALSE(is_sound(path.sample));
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   EXPECT_EQ(received_by_film(path, in).rgb, (std::array<double, 3>{}));
   const std::string text = replay_text(path, in);
   EXPECT_NE(text.find("direct   (inf, inf, inf)"), std::string::npos) << text;

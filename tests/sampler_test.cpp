@@ -1,4 +1,4 @@
-// What the battery over samplers (verify/battery_sampler.cpp) cannot know: how Sobol's points are made, and what they
+// What the battery over samplers (verify/battery/sampler.cpp) cannot know: how Sobol's points are made, and what they
 // are good for. Everything is deterministic, so a test that passes once passes always.
 #include "samplers/sampler.h"
 
@@ -9,7 +9,7 @@
 
 #include "core/hash.h"
 #include "samplers/owen_sobol.h"
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 namespace etd {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "noise_integrator.h"
 #include "render/driver.h"
-#include "verify/estimate.h"
+#include "verify/statistics/estimate.h"
 
 namespace etd {
 namespace {

@@ -1,7 +1,7 @@
 // The second chance of statistical tests. Chance speaks against right code once, a mistake twice: what fails runs again
 // with four times the samples and fresh random numbers, and has failed only if that run fails as well. The levels of
-// both may therefore be those of repeated_level (verify/statistics.h), and a mistake that the first run finds with
-// some probability is found by the second almost surely, whose error is half as large.
+// both may therefore be those of repeated_level (verify/statistics/statistics.h), and a mistake that the first run
+// finds with some probability is found by the second almost surely, whose error is half as large.
 #pragma once
 
 #include <cstdint>

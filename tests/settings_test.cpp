@@ -53,11 +53,11 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(Settings, DefaultsOfTheFormat) {
   const RenderSettings s = good(SceneDescription{});
-  EXPECT_EQ(s.width, 1280);
-  EXPECT_EQ(s.height, 720);
-  EXPECT_EQ(s.crop, (PixelBounds{0, 0, 1280, 720}));
+  EXPECT_EQ(s.film.width, 1280);
+  EXPECT_EQ(s.film.height, 720);
+  EXPECT_EQ(s.film.crop, (PixelBounds{0, 0, 1280, 720}));
   EXPECT_EQ(s.spp, 16u);
-  EXPECT_EQ(s.replicates, 2u);
+  EXPECT_EQ(s.film.replicates, 2u);
   EXPECT_EQ(s.seed, 0u);
   EXPECT_EQ(s.sampler, SamplerKind::kSobol);
   EXPECT_EQ(s.integrator.model, "path");
@@ -68,8 +68,8 @@ TEST(Settings, TheSceneIsObeyed) {
   SceneDescription d = scene_of(100, 50);
   d.sampler = {"independent", {integers("pixelsamples", {6}), integers("seed", {9})}, {}};
   const RenderSettings s = good(d);
-  EXPECT_EQ(s.width, 100);
-  EXPECT_EQ(s.crop, (PixelBounds{0, 0, 100, 50}));
+  EXPECT_EQ(s.film.width, 100);
+  EXPECT_EQ(s.film.crop, (PixelBounds{0, 0, 100, 50}));
   EXPECT_EQ(s.spp, 6u);
   EXPECT_EQ(s.seed, 9u);
   EXPECT_EQ(s.sampler, SamplerKind::kIndependent);
@@ -95,8 +95,8 @@ TEST(Settings, StopConditionsReplaceTheSamplesOfTheSceneButNotThoseGiven) {
     const RenderSettings s = good(scene_of(8, 8), o);
     EXPECT_TRUE(s.spp_unlimited);
     EXPECT_GT(s.spp, 1u << 29);
-    EXPECT_EQ(s.seconds, time ? 30 : HUGE_VAL);
-    EXPECT_EQ(s.error, time ? 0 : 0.02);
+    EXPECT_EQ(s.driver.seconds, time ? 30 : HUGE_VAL);
+    EXPECT_EQ(s.driver.error, time ? 0 : 0.02);
     o.replicates = 3;
     EXPECT_EQ(good(scene_of(8, 8), o).spp % 3, 0u);
     o.spp = 64;
@@ -162,7 +162,7 @@ TEST(Settings, OverridesOfDeclaredParameters) {
   EXPECT_EQ(s.integrator.params.size(), 1u);
   EXPECT_EQ(s.integrator.find("maxdepth")->integers, std::vector<int32_t>{7});
   EXPECT_EQ(s.filename, "a b.exr");
-  EXPECT_EQ(s.crop, (PixelBounds{1, 3, 2, 4}));
+  EXPECT_EQ(s.film.crop, (PixelBounds{1, 3, 2, 4}));
   EXPECT_EQ(s.spp, 32u);
   o.sampler = "independent";
   EXPECT_EQ(good(d, o).sampler, SamplerKind::kIndependent);

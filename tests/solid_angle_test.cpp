@@ -11,7 +11,6 @@
 namespace etd {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 constexpr Point3d kOrigin{};
 
 // Calls f with points of the square and the numeric Jacobian of `direction` there.

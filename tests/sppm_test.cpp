@@ -9,7 +9,7 @@
 #include "formats/pbrt/reader.h"
 #include "render/session.h"
 #include "same_bits.h"
-#include "verify/extrapolate.h"
+#include "verify/scene/extrapolate.h"
 
 namespace etd {
 namespace {

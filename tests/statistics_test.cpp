@@ -1,4 +1,4 @@
-#include "verify/statistics.h"
+#include "verify/statistics/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "verify/quadrature.h"
+#include "verify/statistics/quadrature.h"
 
 namespace etd {
 namespace {

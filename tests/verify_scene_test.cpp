@@ -1,5 +1,5 @@
 // Scenes as their own tests: agreement where there is, and no verdict where samples cannot give one.
-#include "verify/verify_scene.h"
+#include "verify/scene/verify_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "formats/pbrt/reader.h"
 #include "render_helper.h"
-#include "verify/sample_peaks.h"
+#include "verify/scene/sample_peaks.h"
 
 namespace etd {
 namespace {

@@ -13,7 +13,7 @@ constexpr const char* kPoint = "LightSource \"point\"\n";
 
 bool warns(const std::string& world) {
   Diagnostics diagnostics;
-  EXPECT_TRUE(compile(read_pbrt_text("WorldBegin\n" + world, "test", ".", diagnostics), {16, 16}, diagnostics))
+  EXPECT_TRUE(compile(read_pbrt_text("WorldBegin\n" + world, "test", ".", diagnostics), {16, 16}, diagnostics).scene)
       << diagnostics.format_all();
   return diagnostics.format_all().find("nothing can be seen") != std::string::npos;
 }

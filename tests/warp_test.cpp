@@ -1,4 +1,4 @@
-// What the battery over warps (verify/battery_warp.cpp) cannot know: that it is complete, and values at the edges.
+// What the battery over warps (verify/battery/warp.cpp) cannot know: that it is complete, and values at the edges.
 #include "core/warp.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "render_helper.h"
-#include "verify/battery.h"
+#include "verify/battery/battery.h"
 
 namespace etd {
 namespace {
@@ -45,7 +45,7 @@ TEST(Warp, EveryOneInCoreIsInTheBattery) {
   const std::set<std::string> present = sampling_functions();
   EXPECT_GE(present.size(), 9u);
   for (const std::string& name : present)
-    EXPECT_TRUE(tested.count(name)) << name << " is in no list of verify/battery_warp.cpp";
+    EXPECT_TRUE(tested.count(name)) << name << " is in no list of verify/battery/warp.cpp";
 }
 
 TEST(Warp, ValuesAtTheMiddleAndBelowTheHorizon) {

@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "io/file.h"
 #include "printing.h"
-#include "verify/difference.h"
+#include "verify/difference/difference.h"
 
 namespace etd::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include "printing.h"
 #include "render/memory.h"
 #include "render/provenance.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 
 namespace etd::cli {
@@ -35,12 +36,12 @@ std::string counts_text(const std::map<std::string, size_t>& counts) {
 std::string triple(Point3d p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
 void print_info(const PreparedRender& prepared) {
-  const Scene& scene = *prepared.scene;
-  const SceneSummary& summary = scene.summary;
+  const Scene& scene = *prepared.compiled.scene;
+  const SceneSummary& summary = prepared.compiled.info->summary;
   const RenderSettings& s = prepared.settings;
   const auto row = [](const char* name, const std::string& text) { answer("{:<12}{}\n", name, text); };
-  row("image",
-      fmt::format("{}x{}, {} spp, {} replicates, {}", s.width, s.height, s.spp, s.replicates, s.integrator.model));
+  row("image", fmt::format("{}x{}, {} spp, {} replicates, {}", s.film.width, s.film.height, s.spp,
+                           s.film.all_replicates(), s.integrator.model));
   row("shapes", counts_text(summary.shapes));
   row("triangles", summary.instanced_triangles == summary.triangles
                        ? fmt::format("{}", summary.triangles)

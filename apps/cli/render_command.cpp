@@ -91,8 +91,9 @@ std::string stop_text(const RenderSettings& settings, StoppedBy reason) {
 
 void print_summary(const PreparedRender& prepared, const RenderResult& result, const std::string& label) {
   const RenderSettings& s = prepared.settings;
-  report("{}{}{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", label, label.empty() ? "" : "  ", s.crop.width(),
-         s.crop.height(), result.spp, result.unequal ? " or more" : "", stop_text(s, result.stopped_by), result.seconds,
+  report("{}{}{}x{}, {}{} spp{}, {:.2f} s, {}rays/s, error {}\n", label, label.empty() ? "" : "  ", s.film.crop.width(),
+         s.film.crop.height(), result.spp, result.unequal ? " or more" : "", stop_text(s, result.stopped_by),
+         result.seconds,
          short_count(result.seconds > 0 ? static_cast<double>(result.rays.total()) / result.seconds : 0),
          error_text(result.error));
 }
@@ -163,7 +164,7 @@ bool render_view(const Arguments& args, const View& view, const std::string& lab
   outcome.invalid = outcome.invalid || finished.result.invalid.total() > 0;
   outcome.failed = outcome.failed || finished.result.stopped_by == StoppedBy::kMemory;
   watchers.end(finished.film);
-  const TextureCache* cache = prepared.scene->textures.cache.get();
+  const TextureCache* cache = prepared.compiled.scene->textures.cache.get();
   if (!cache || cache->read_error().empty()) return true;
   tell("etendue: the texture cache could not be read, and textures are black where it was not: {}\n",
        cache->read_error());

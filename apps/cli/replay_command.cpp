@@ -10,6 +10,7 @@
 #include "render/provenance.h"
 #include "render/replay.h"
 #include "render/version.h"
+#include "scene/info.h"
 
 namespace etd::cli {
 namespace {
@@ -124,9 +125,9 @@ Task make_task(const Arguments& args) {
 
 // Why there is no such sample; empty when there is.
 std::string sample_problem(const SampleId& id, const RenderSettings& s) {
-  if (id.x < 0 || id.y < 0 || id.x >= s.width || id.y >= s.height)
-    return fmt::format("pixel {},{} is outside the image of {}x{} pixels, which begins at 0,0", id.x, id.y, s.width,
-                       s.height);
+  if (id.x < 0 || id.y < 0 || id.x >= s.film.width || id.y >= s.film.height)
+    return fmt::format("pixel {},{} is outside the image of {}x{} pixels, which begins at 0,0", id.x, id.y,
+                       s.film.width, s.film.height);
   if (id.number >= s.spp)
     return fmt::format("there is no sample {}: a pixel has {}, from 0 to {} (--spp)", id.number, s.spp, s.spp - 1);
   return {};
@@ -201,7 +202,8 @@ int replay(const Arguments& args) {
   if (task.image && task.image->version != version())
     warn(fmt::format("the image is of version {}, this is {}", task.image->version, version()));
 
-  const ReplayedScene in{*prepared->scene, diagnostics.sources(), prepared->settings.sensor};
+  const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),
+                         prepared->settings.film.sensor};
   if (args.fireflies) return replay_fireflies(args, *task.image, *prepared, in);
   return replay_one({args.pixel->first, args.pixel->second, *args.sample}, *prepared, in, args.json);
 }

@@ -10,8 +10,8 @@
 #include "render/duration.h"
 #include "render/interrupt.h"
 #include "task_bar.h"
-#include "verify/battery_run.h"
-#include "verify/verify_scene.h"
+#include "verify/battery/run.h"
+#include "verify/scene/verify_scene.h"
 
 namespace etd::cli {
 namespace {

@@ -29,7 +29,8 @@ enum Lobe : uint8_t {
 };
 constexpr Lobe operator|(Lobe a, Lobe b) { return static_cast<Lobe>(static_cast<int>(a) | static_cast<int>(b)); }
 
-// What a closure's type promises, as `static constexpr BsdfTraits kTraits`; verify/battery_bsdf.h tests exactly that.
+// What a closure's type promises, as `static constexpr BsdfTraits kTraits`; verify/battery/bsdf/bsdf.h tests exactly
+// that.
 struct BsdfTraits {
   bool delta = false;              // only delta lobes: eval_cos() and pdf() are 0
   bool stochastic = false;         // eval_cos() is random, pdf() an approximation that serves as a MIS weight

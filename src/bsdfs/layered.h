@@ -6,6 +6,7 @@
 
 #include "bsdfs/bsdf.h"
 #include "bsdfs/fresnel.h"
+#include "core/mis.h"
 #include "core/warp.h"
 #include "phase/henyey_greenstein.h"
 
@@ -101,8 +102,6 @@ struct Layered {
     return {x, y, rng.next_float()};
   }
   static float transmittance(float distance, Vec3 w) { return std::exp(-std::abs(distance / w.z)); }
-  // Power heuristic for one sample of each (Veach 1997, equation 9.13).
-  static float mis(float p, float other) { return p * p / (p * p + other * other); }
 
   // Ends walks that carry little; false when this one has ended.
   static bool survives(int depth, Spectrum& beta, HashStream& rng) {
@@ -148,13 +147,14 @@ struct Layered {
       if (kTopDelta || !(w.z > 0.0f)) return;
       const Spectrum f = top.eval_cos(-w, wi, mode, rng);
       if (is_black(f)) return;
-      const float weight = p > 0.0f ? mis(p, top.pdf(wi, -w, reverse, kTransmission)) : 1.0f;
+      const float weight =
+          p > 0.0f ? mis_weight(MisHeuristic::kPower, p, top.pdf(wi, -w, reverse, kTransmission)) : 1.0f;
       sum += beta * f * (transmittance(layer.thickness - z, w) * weight);
     };
     for (int depth = 0; depth < layer.max_depth && survives(depth, beta, rng); ++depth) {
       if (advance(z, w, beta, rng)) {
         const float p = phase.p(-w, to_exit);
-        const float weight = kTopDelta ? 1.0f : mis(exit->pdf, p);
+        const float weight = kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, exit->pdf, p);
         Spectrum out(p * weight * transmittance(layer.thickness - z, to_exit));
         if (kDeltaOnly) out = with_mirrors(out, phase.p(-w, {to_exit.x, to_exit.y, -to_exit.z}), z, to_exit);
         sum += beta * layer.albedo * leave * out;
@@ -174,7 +174,8 @@ struct Layered {
         continue;
       }
       if (!kBottomDelta) {
-        const float weight = kTopDelta ? 1.0f : mis(exit->pdf, bottom.pdf(-w, to_exit, mode, kReflection));
+        const float weight =
+            kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, exit->pdf, bottom.pdf(-w, to_exit, mode, kReflection));
         sum +=
             beta * bottom.eval_cos(-w, to_exit, mode, rng) * leave * (weight * transmittance(layer.thickness, to_exit));
       }

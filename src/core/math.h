@@ -12,6 +12,7 @@
 namespace etd {
 
 inline constexpr float kPi = 3.14159265358979323846f;
+inline constexpr double kPiD = 3.14159265358979323846;
 inline constexpr float kInvPi = 1.0f / kPi;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Largest float below one: keeps uniform numbers in [0, 1).
@@ -23,7 +24,7 @@ ETD_FN float safe_sqrt(float x) { return std::sqrt(x > 0.0f ? x : 0.0f); }
 ETD_FN float lerp(float t, float a, float b) { return (1.0f - t) * a + t * b; }
 // NaN gives lo.
 ETD_FN float clamp(float x, float lo, float hi) { return x > lo ? (x < hi ? x : hi) : lo; }
-ETD_FN double radians(double degrees) { return degrees * (3.14159265358979323846 / 180.0); }
+ETD_FN double radians(double degrees) { return degrees * (kPiD / 180.0); }
 
 ETD_FN uint32_t float_bits(float f) {
   uint32_t u;

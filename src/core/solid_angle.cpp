@@ -4,8 +4,6 @@ namespace etd {
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 double clamped(double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); }
 double root(double x) { return std::sqrt(x > 0.0 ? x : 0.0); }
 

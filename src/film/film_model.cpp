@@ -98,14 +98,15 @@ std::span<const ModelDecl* const> film_models() {
 
 FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int, int>> size, double shutter) {
   const int own_width = reader.integer("xresolution"), own_height = reader.integer("yresolution");
-  FilmModel film;
+  FilmModel model;
+  FilmSettings& film = model.settings;
   film.width = size ? size->first : own_width;
   film.height = size ? size->second : own_height;
-  film.filename = reader.string("filename");
-  film.half = reader.boolean("savefp16");
+  model.filename = reader.string("filename");
+  model.half = reader.boolean("savefp16");
   film.sensor = Sensor::create(reader, shutter);
   film.positions = reader.decl().name == "gbuffer";
-  film.in_camera_space = film.positions && reader.string("coordinatesystem") == "camera";
+  model.in_camera_space = film.positions && reader.string("coordinatesystem") == "camera";
   const PixelBounds whole{0, 0, film.width, film.height};
   film.crop = whole;
 
@@ -117,7 +118,7 @@ FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int
       diagnostics.error(p->loc,
                         fmt::format("parameter \"{}\" of film \"{}\" takes 4 numbers", p->name, reader.decl().name),
                         "they are x0 x1 y0 y1");
-      return film;
+      return model;
     }
   if (window && bounds)
     diagnostics.warning(bounds->loc, "both \"cropwindow\" and \"pixelbounds\" are given: the crop window counts");
@@ -133,7 +134,7 @@ FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int
                       fmt::format("the image is {} x {} pixels; the values are x0 x1 y0 y1", film.width, film.height));
     film.crop = whole;
   }
-  return film;
+  return model;
 }
 
 }  // namespace etd

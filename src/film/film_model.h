@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/bounds.h"
-#include "film/sensor.h"
+#include "film/film.h"
 #include "params/declaration.h"
 
 namespace etd {
@@ -16,13 +15,10 @@ namespace etd {
 inline constexpr int kMaxImageSide = 65536;
 
 struct FilmModel {
-  int width = 0, height = 0;
-  PixelBounds crop;  // inside the image, not empty
+  FilmSettings settings;  // size, crop (inside the image, not empty), sensor and positions
   std::string filename;
-  bool half = false;  // EXR files hold 16-bit floats
-  Sensor sensor;
-  // A gbuffer keeps positions if the first is set, and writes them and normals in camera space if the second is.
-  bool positions = false, in_camera_space = false;
+  bool half = false;             // EXR files hold 16-bit floats
+  bool in_camera_space = false;  // positions and normals
 };
 
 const ModelDecl& rgb_film_decl();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accel/spawn.h"
-#include "integrators/mis.h"
+#include "core/mis.h"
 #include "materials/surface_scatter.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"

@@ -175,10 +175,10 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   bool only_scattering = true;  // the last direction could not have come from light sampling
   SurfacePoint last;            // the vertex it left
 
-  const auto add = [&](int depth, const Spectrum& radiance) {
+  const auto add = [&](LightFoundBy by, int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
     (depth == 0 ? out.emission : depth == 1 ? out.direct : out.indirect) += radiance;
-    recorder.contribution(depth, radiance);
+    recorder.contribution(by, radiance);
   };
   // Emission that scattering found, weighted: light sampling could have found it with density pdf_light.
   const auto add_emission = [&](int depth, uint32_t light, const SurfacePoint* on_light) {
@@ -192,7 +192,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
     recorder.emission(light, radiance, scatter_pdf, pdf_light, weight);
-    add(depth, beta * radiance * weight);
+    add(LightFoundBy::kScattering, depth, beta * radiance * weight);
   };
 
   for (int depth = 0;; ++depth) {
@@ -230,7 +230,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      add(depth + 1, beta * next_event(scene_, how, {point, scatter, wo, ray.time}, sampler, rng, out.rays, recorder));
+      const Spectrum light = next_event(scene_, how, {point, scatter, wo, ray.time}, sampler, rng, out.rays, recorder);
+      add(LightFoundBy::kLightSampling, depth + 1, beta * light);
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.

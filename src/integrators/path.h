@@ -1,7 +1,7 @@
 // Path tracing (Kajiya 1986): from the camera, one random path at a time.
 #pragma once
 
-#include "integrators/mis.h"
+#include "core/mis.h"
 #include "integrators/pixel_integrator.h"
 #include "integrators/variant.h"
 #include "params/declaration.h"

@@ -36,6 +36,9 @@ struct LightRecord {
   std::optional<Spectrum> contribution;
 };
 
+// Scattering leads to an EmissionRecord, sampling a light to a LightRecord.
+enum class LightFoundBy : uint8_t { kScattering, kLightSampling };
+
 struct RouletteRecord {
   float survival = 1;  // probability
   bool survived = false;
@@ -78,7 +81,7 @@ struct NoRecorder {
   void light(uint32_t, float) {}
   void light_sample(const LightSample&, const Spectrum&) {}
   void light_visible(float, float) {}
-  void contribution(int, const Spectrum&) {}
+  void contribution(LightFoundBy, const Spectrum&) {}
   void scatter(const BsdfSample&) {}
   void roulette(float, bool) {}
   void end(PathEnd) {}
@@ -113,11 +116,11 @@ class PathRecorder {
     last().light->visible = true;
     last().light->pdf_scatter = pdf_scatter, last().light->mis_weight = mis_weight;
   }
-  // Records the contribution of the emission or light sample that was told last: light sampling reaches one event
-  // further than emission.
-  void contribution(int depth, const Spectrum& radiance) {
+  // Records what the emission or light sample that was told last adds to the image. Where there was no light to choose,
+  // none was told.
+  void contribution(LightFoundBy by, const Spectrum& radiance) {
     PathVertex& v = last();
-    if (depth == v.depth)
+    if (by == LightFoundBy::kScattering)
       v.emission.back().contribution = radiance;
     else if (v.light)
       v.light->contribution = radiance;

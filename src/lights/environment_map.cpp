@@ -8,11 +8,7 @@
 
 namespace etd {
 
-namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<EnvironmentMap::Layout> EnvironmentMap::layout_of(int width, int height) {
   if (width == height) return Layout::kEqualArea;

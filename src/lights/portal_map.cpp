@@ -2,9 +2,7 @@
 
 namespace etd {
 
-namespace {
-constexpr double kPiD = 3.14159265358979323846;
-}
+namespace {}
 
 PortalMap::Point PortalMap::angles(Vec3d w) {
   return {std::atan2(w.x, w.z) / kPiD + 0.5, std::atan2(w.y, w.z) / kPiD + 0.5};

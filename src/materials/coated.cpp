@@ -95,7 +95,7 @@ const ModelDecl& CoatedDiffuseMaterial::decl() {
                   .max = 1,
                   .clamp = true,
                   .doc = "Share of the light that the diffuse surface reflects."}}};
-    return with_detail(with_params(with_params(m, CoatSource::params("")), {remap_param()}));
+    return with_detail(with_params(m, {CoatSource::params(""), {remap_param()}}));
   }();
   return d;
 }
@@ -118,8 +118,9 @@ const ModelDecl& CoatedConductorMaterial::decl() {
       m.params.push_back(p);
     }
     m.params.push_back(*metal.find("reflectance"));
-    m = with_params(m, RoughnessSource::params("conductor.", 0.0, "of the metal"));
-    return with_detail(with_params(with_params(m, CoatSource::params("interface.")), {remap_param()}));
+    return with_detail(with_params(m, {RoughnessSource::params("conductor.", 0.0, "of the metal"),
+                                       CoatSource::params("interface."),
+                                       {remap_param()}}));
   }();
   return d;
 }

@@ -24,8 +24,8 @@ const ModelDecl& ConductorMaterial::decl() {
                   .max = 1,
                   .clamp = true,
                   .doc = "Reflectance at normal incidence, instead of eta and k."}}};
-    m = with_params(m, RoughnessSource::params("", 0.0, "of the surface"));
-    return with_detail(with_params(m, {remap_param(), energy_param()}));
+    return with_detail(
+        with_params(m, {RoughnessSource::params("", 0.0, "of the surface"), {remap_param(), energy_param()}}));
   }();
   return d;
 }

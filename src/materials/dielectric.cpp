@@ -8,8 +8,8 @@ const ModelDecl& DielectricMaterial::decl() {
                 "dielectric",
                 "Glass: reflects and refracts as Fresnel says, smooth or with GGX microfacets.",
                 {clear_index_param("eta", "Index of refraction inside over outside")}};
-    m = with_params(m, RoughnessSource::params("", 0.0, "of the surface"));
-    return with_detail(with_params(m, {remap_param(), energy_param()}));
+    return with_detail(
+        with_params(m, {RoughnessSource::params("", 0.0, "of the surface"), {remap_param(), energy_param()}}));
   }();
   return d;
 }

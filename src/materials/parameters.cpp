@@ -64,11 +64,6 @@ float clear_index(const ParamReader& p, std::string_view name) {
   return mean_value(value);
 }
 
-ModelDecl with_detail(ModelDecl decl) { return with_params(std::move(decl), SurfaceDetail::params()); }
-
-ModelDecl with_params(ModelDecl decl, const std::vector<ParamDecl>& more) {
-  decl.params.insert(decl.params.end(), more.begin(), more.end());
-  return decl;
-}
+ModelDecl with_detail(ModelDecl decl) { return with_params(std::move(decl), {SurfaceDetail::params()}); }
 
 }  // namespace etd

@@ -28,7 +28,5 @@ float clear_index(const ParamReader& p, std::string_view name);
 
 // A declaration with what every material has (materials/surface_detail.h).
 ModelDecl with_detail(ModelDecl decl);
-// Appends parameters to a declaration.
-ModelDecl with_params(ModelDecl decl, const std::vector<ParamDecl>& more);
 
 }  // namespace etd

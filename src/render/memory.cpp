@@ -48,18 +48,19 @@ size_t writing_bytes(const ImageHeader& image) {
 }
 
 MemoryForecast forecast_memory(const PreparedRender& prepared) {
-  const FilmSettings film = film_settings(prepared.settings);
+  const FilmSettings& film = prepared.settings.film;
   MemoryForecast forecast;
   forecast.film = Film::bytes_for(film);
-  if (prepared.scene->textures.cache) {
-    const size_t most = prepared.scene->textures.cache_limit, now = prepared.scene->textures.image_bytes();
+  if (prepared.compiled.scene->textures.cache) {
+    const size_t most = prepared.compiled.scene->textures.cache_limit,
+                 now = prepared.compiled.scene->textures.image_bytes();
     forecast.textures = most - std::min(most, now);
   }
   // Measured: copies of the rows that are there at once, the code of the encoders, a thread's stack and what its
   // allocator keeps.
   constexpr size_t kCopies = 3, kEncoders = 9 * kMiB, kOfThread = kMiB / 2;
   forecast.writing = kCopies * strip_bytes(layers_header(film, false)) + kEncoders;
-  const size_t threads = static_cast<size_t>(thread_count(prepared.settings.threads));
+  const size_t threads = static_cast<size_t>(thread_count(prepared.settings.driver.threads));
   return_freed_memory();
   const size_t added = forecast.film + forecast.textures + forecast.writing + threads * kOfThread;
   forecast.peak = std::max<size_t>(peak_memory_bytes(), memory_bytes() + added);

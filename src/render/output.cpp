@@ -206,7 +206,8 @@ LayeredImage make_picture(const Film& film) {
 
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result) {
-  const PixelBounds& crop = settings.crop;
+  const FilmSettings& film = settings.film;
+  const PixelBounds& crop = film.crop;
   // 64-bit numbers become text, since no number type of the format holds them all.
   Metadata data = {{"etendue:version", std::string(version())},
                    {"etendue:scene", scene.filename().string()},
@@ -222,19 +223,19 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   };
   add("sampler", std::string(settings.sampler == SamplerKind::kSobol ? "sobol" : "independent"));
   add("seed", std::to_string(settings.seed));
-  add("replicates", static_cast<int>(settings.replicate_count));
-  if (settings.replicate_count != settings.replicates)
-    add("replicate_range", fmt::format("{} to {} of {}", settings.first_replicate,
-                                       settings.first_replicate + settings.replicate_count - 1, settings.replicates));
+  add("replicates", static_cast<int>(film.replicates));
+  if (film.replicates != film.all_replicates())
+    add("replicate_range", fmt::format("{} to {} of {}", film.first_replicate,
+                                       film.first_replicate + film.replicates - 1, film.all_replicates()));
   add("spp", static_cast<int>(result.spp));
   add("spp_planned", settings.spp_unlimited ? MetadataValue(std::string("unlimited")) : static_cast<int>(settings.spp));
   add("spp_unequal", std::string(result.unequal ? "true" : "false"));
   if (result.empty > 0) add("empty", result.empty);
-  if (settings.seconds < HUGE_VAL) add("seconds_limit", settings.seconds);
-  if (settings.error > 0) add("error_goal", settings.error);
-  add("imaging_ratio", settings.sensor.imaging_ratio);
-  add("white_balance", settings.sensor.white_balance);
-  add("size", fmt::format("{}x{}", settings.width, settings.height));
+  if (settings.driver.seconds < HUGE_VAL) add("seconds_limit", settings.driver.seconds);
+  if (settings.driver.error > 0) add("error_goal", settings.driver.error);
+  add("imaging_ratio", film.sensor.imaging_ratio);
+  add("white_balance", film.sensor.white_balance);
+  add("size", fmt::format("{}x{}", film.width, film.height));
   add("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
   add("rays.camera", std::to_string(result.rays.camera));
   add("rays.indirect", std::to_string(result.rays.indirect));
@@ -242,11 +243,10 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   add("seconds", result.seconds);
   add("error", result.error);
   const std::string noise_only = settings.traits.consistent ? "; noise only, without the bias" : "";
-  const char* spread = settings.replicate_count >= kReplicatesForSpread
-                           ? "spread of the replicates"
-                           : "second moments (conservative for sobol samples)";
+  const char* spread = film.replicates >= kReplicatesForSpread ? "spread of the replicates"
+                                                               : "second moments (conservative for sobol samples)";
   add("stderr", spread + noise_only);
-  add("biased", bias_text(bias, settings.sensor, result));
+  add("biased", bias_text(bias, film.sensor, result));
   add("invalid_samples", invalid_text(result.invalid));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));
   add("interrupted", std::string(result.stopped_by == StoppedBy::kInterrupt ? "true" : "false"));

@@ -44,18 +44,16 @@ std::string lobe_text(Lobe lobe) {
 }
 
 PathItem shape_item(const ReplayedScene& in, const Hit& hit) {
-  return item_at(in, in.scene.names.shapes, in.scene.binding_of(hit).shape, "surface");
+  return item_at(in, in.names.shapes, in.scene.binding_of(hit).shape, "surface");
 }
 
-PathItem light_item(const ReplayedScene& in, uint32_t light) {
-  return item_at(in, in.scene.names.lights, light, "light");
-}
+PathItem light_item(const ReplayedScene& in, uint32_t light) { return item_at(in, in.names.lights, light, "light"); }
 
 PathItem material_item(const ReplayedScene& in, const Material* material) {
   if (!material) return {"material", {}, {}};
   const auto index = static_cast<size_t>(material - in.scene.materials.data());
-  PathItem item = item_at(in, in.scene.names.materials, index, "material");
-  if (index < in.scene.names.material_names.size()) item.name = in.scene.names.material_names[index];
+  PathItem item = item_at(in, in.names.materials, index, "material");
+  if (index < in.names.material_names.size()) item.name = in.names.material_names[index];
   return item;
 }
 

@@ -27,8 +27,9 @@ uint64_t hash_bytes(uint64_t hash, std::string_view bytes) {
 std::vector<std::string> options(const PreparedRender& prepared, const RenderResult& result) {
   RenderOverrides overrides = prepared.overrides;
   if (const RenderSettings& s = prepared.settings; s.spp_unlimited) {
-    const Pass next = next_pass({0, 0, result.spp / s.replicates}, s.spp / s.replicates);
-    overrides.spp = result.unequal ? next.end * s.replicates : result.spp;
+    const uint32_t replicates = s.film.all_replicates();
+    const Pass next = next_pass({0, 0, result.spp / replicates}, s.spp / replicates);
+    overrides.spp = result.unequal ? next.end * replicates : result.spp;
   }
   std::vector<std::string> list = sample_options(overrides);
   if (!prepared.camera_file.empty()) {

@@ -7,12 +7,14 @@
 #include "film/sensor.h"
 #include "integrators/path_record.h"
 #include "params/source.h"
+#include "scene/names.h"
 
 namespace etd {
 
 // What a path refers to: its scene, the files that the scene was read from, and the film.
 struct ReplayedScene {
   const Scene& scene;
+  const SceneNames& names;
   const Sources& sources;
   const Sensor& sensor;
 };

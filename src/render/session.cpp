@@ -9,7 +9,7 @@
 #include "render/memory.h"
 #include "render/provenance.h"
 #include "render/threads.h"
-#include "scene/compile.h"
+#include "scene/info.h"
 #include "scene/scene.h"
 
 namespace etd {
@@ -17,7 +17,7 @@ namespace {
 
 // An image larger than the machine is a slip of the keyboard, better reported than met as a killed process.
 void check_film_memory(const RenderSettings& settings, Diagnostics& diagnostics) {
-  const double needed = static_cast<double>(Film::bytes_for(film_settings(settings)));
+  const double needed = static_cast<double>(Film::bytes_for(settings.film));
   const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed <= present) return;
   diagnostics.error(
@@ -34,26 +34,8 @@ std::string bias_of(const PreparedRender& prepared) {
 
 }  // namespace
 
-FilmSettings film_settings(const RenderSettings& s) {
-  return {.width = s.width,
-          .height = s.height,
-          .crop = s.crop,
-          .replicates = s.replicate_count,
-          .first_replicate = s.first_replicate,
-          .of_replicates = s.replicates,
-          .features = s.features,
-          .positions = s.positions,
-          .alpha = s.alpha,
-          .ids = s.ids,
-          .splats = s.traits.splats,
-          .correlated = s.traits.correlated_pixels,
-          .feature_space = s.feature_space,
-          .sensor = s.sensor};
-}
-
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled,
-                                             SceneFiles* files) {
+                                             Diagnostics& diagnostics, CompiledScene compiled, SceneFiles* files) {
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
@@ -66,28 +48,28 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   const RenderSettings& settings = prepared.settings;
   check_film_memory(settings, diagnostics);
 
-  TbbThreads threads(settings.threads);  // building the accelerator is parallel too
-  prepared.scene = std::move(compiled);
-  if (!prepared.scene)
-    prepared.scene = threads.run([&] {
+  TbbThreads threads(settings.driver.threads);  // building the accelerator is parallel too
+  prepared.compiled = std::move(compiled);
+  if (!prepared.compiled.scene)
+    prepared.compiled = threads.run([&] {
       return compile(description,
-                     {.width = settings.width,
-                      .height = settings.height,
+                     {.width = settings.film.width,
+                      .height = settings.film.height,
                       .spp = settings.spp,
                       .textures = settings.textures,
                       .files = files},
                      diagnostics);
     });
-  if (diagnostics.has_errors() || !prepared.scene) return {};
-  if (settings.ids) prepared.labels = label_ids(prepared.scene->names, diagnostics);
+  if (diagnostics.has_errors() || !prepared.compiled.scene) return {};
+  if (settings.film.ids) prepared.labels = label_ids(prepared.compiled.info->names, diagnostics);
   const IntegratorContext context{.sampler = settings.sampler,
                                   .seed = settings.seed,
-                                  .width = settings.width,
-                                  .height = settings.height,
-                                  .crop = settings.crop,
+                                  .width = settings.film.width,
+                                  .height = settings.film.height,
+                                  .crop = settings.film.crop,
                                   .tile_size = settings.tile_size,
-                                  .replicates = settings.replicates};
-  prepared.integrator = make_integrator(settings.integrator, *prepared.scene, context, diagnostics);
+                                  .replicates = settings.film.all_replicates()};
+  prepared.integrator = make_integrator(settings.integrator, *prepared.compiled.scene, context, diagnostics);
   if (diagnostics.has_errors()) return {};
   prepared.substitutes = fmt::format("{}", fmt::join(diagnostics.substitutes(), "; "));
   prepared.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -95,17 +77,12 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
 }
 
 FinishedRender run_render(PreparedRender& prepared, RenderObserver& observer, const std::atomic<bool>* stop) {
-  const RenderSettings& settings = prepared.settings;
-  FilmSettings film = film_settings(settings);
-  film.feature_space = film.feature_space * Transform::translate(prepared.scene->origin);
+  FilmSettings film = prepared.settings.film;
+  film.feature_space = film.feature_space * Transform::translate(prepared.compiled.scene->origin);
   return_freed_memory();
   FinishedRender finished{Film(film), {}};
   const AddressReserve for_writing(writing_bytes(layers_header(film, true)));
-  const DriverSettings driver{.spp = settings.spp / settings.replicates * settings.replicate_count,
-                              .threads = settings.threads,
-                              .seconds = settings.seconds,
-                              .error = settings.error};
-  finished.result = render(*prepared.integrator, finished.film, driver, observer, stop);
+  finished.result = render(*prepared.integrator, finished.film, prepared.settings.driver, observer, stop);
   return finished;
 }
 
@@ -115,9 +92,9 @@ RowImage finished_rows(const PreparedRender& prepared, const FinishedRender& fin
   image.metadata = make_metadata(prepared.scene_file, prepared.settings, bias_of(prepared), finished.result);
   if (!prepared.camera_file.empty())
     image.metadata.emplace_back("etendue:camera", prepared.camera_file.filename().string());
-  const bool correlated = prepared.settings.traits.correlated_pixels;
+  const bool correlated = prepared.settings.film.correlated;
   image.metadata.emplace_back("etendue:pixels", std::string(correlated ? "correlated" : "independent"));
-  if (prepared.settings.ids) add_manifests(prepared.labels, finished.film, image.metadata);
+  if (prepared.settings.film.ids) add_manifests(prepared.labels, finished.film, image.metadata);
   add_provenance(prepared, finished, image.metadata);
   return image;
 }
@@ -134,7 +111,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
-  stats.texture_bytes = prepared.scene->textures.image_bytes();
+  stats.texture_bytes = prepared.compiled.scene->textures.image_bytes();
   count_pixels(finished.film, stats);
   return stats;
 }

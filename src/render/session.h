@@ -17,11 +17,9 @@
 #include "render/output.h"
 #include "render/settings.h"
 #include "render/stats.h"
+#include "scene/compile.h"
 
 namespace etd {
-
-class Scene;
-struct SceneFiles;
 
 struct PreparedRender {
   std::filesystem::path scene_file, camera_file;
@@ -31,20 +29,18 @@ struct PreparedRender {
   Limits limits;
   std::string substitutes;  // all that stand in for what is not supported, separated by "; "
   RenderSettings settings;
-  IdLabels labels;                     // if ids are kept
-  std::shared_ptr<const Scene> scene;  // outlives the integrator, which refers to it
+  IdLabels labels;         // if ids are kept
+  CompiledScene compiled;  // outlives the integrator, which refers to the scene
   std::unique_ptr<Integrator> integrator;
   double build_seconds = 0;
 };
 
-FilmSettings film_settings(const RenderSettings& settings);
-
 // Compiles the scene and makes the integrator. Reports everything that is wrong with description and overrides, also
 // when errors were reported before, and returns nothing if there is any error.
-// `compiled`: the scene that was compiled before from the same description, for an image of the same size.
+// `compiled`: what was compiled before from the same description, for an image of the same size.
 // `files`: what was read for the same description with another view, and is read now (scene/compile.h).
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, std::shared_ptr<const Scene> compiled = {},
+                                             Diagnostics& diagnostics, CompiledScene compiled = {},
                                              SceneFiles* files = nullptr);
 
 struct FinishedRender {

@@ -7,7 +7,6 @@
 
 #include "film/film_model.h"
 #include "integrators/make_integrator.h"
-#include "render/driver.h"
 #include "render/other_names.h"
 #include "render/overrides.h"
 #include "render/registry.h"
@@ -51,15 +50,11 @@ double shutter_seconds(const ModelUse& camera) {
 
 void read_film(const ParamReader& reader, const SceneDescription& description, const RenderOverrides& overrides,
                RenderSettings& settings) {
-  const FilmModel film = read_film_model(reader, overrides.size, shutter_seconds(description.camera));
-  settings.width = film.width;
-  settings.height = film.height;
-  settings.crop = film.crop;
-  settings.filename = film.filename;
-  settings.half = film.half;
-  settings.sensor = film.sensor;
-  settings.positions = film.positions;
-  if (film.in_camera_space) settings.feature_space = description.camera_to_world.start.inverse();
+  const FilmModel model = read_film_model(reader, overrides.size, shutter_seconds(description.camera));
+  FilmSettings& film = settings.film = model.settings;
+  settings.filename = model.filename;
+  settings.half = model.half;
+  if (model.in_camera_space) film.feature_space = description.camera_to_world.start.inverse();
   if (!overrides.crop) return;
   const PixelBounds& c = *overrides.crop;
   if (c.empty() || c.x0 < 0 || c.y0 < 0 || c.x1 > film.width || c.y1 > film.height)
@@ -68,17 +63,17 @@ void read_film(const ParamReader& reader, const SceneDescription& description, c
         fmt::format("it is x0,x1,y0,y1 in pixels with x1 and y1 outside; the image is {} x {} pixels", film.width,
                     film.height));
   else
-    settings.crop = c;
+    film.crop = c;
 }
 
 void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, RenderSettings& settings) {
   settings.sampler = sampler_kind(reader.decl().name);
   settings.seed = overrides.seed.value_or(static_cast<uint64_t>(reader.integer("seed")));
-  settings.seconds = overrides.seconds.value_or(settings.seconds);
+  settings.driver.seconds = overrides.seconds.value_or(settings.driver.seconds);
   settings.textures.limit = overrides.texture_memory.value_or(settings.textures.limit);
   settings.textures.cache_folder = overrides.texture_cache.value_or(settings.textures.cache_folder);
-  settings.error = overrides.error.value_or(settings.error);
-  const uint32_t r = settings.replicates;
+  settings.driver.error = overrides.error.value_or(settings.driver.error);
+  const uint32_t r = settings.film.all_replicates();
   const bool samples_set = std::any_of(overrides.set.begin(), overrides.set.end(),
                                        [](const auto& entry) { return entry.first == "sampler.pixelsamples"; });
   settings.spp_unlimited = (overrides.seconds || overrides.error) && !overrides.spp && !samples_set;
@@ -91,7 +86,7 @@ void read_sampler(const ParamReader& reader, const RenderOverrides& overrides, R
   if (settings.spp != wanted)
     reader.diagnostics().note(
         {}, fmt::format("{} samples per pixel rounded up to {}, a multiple of {} replicates", wanted, settings.spp, r));
-  if (settings.error > 0 && settings.spp < kFirstErrorTest)
+  if (settings.driver.error > 0 && settings.spp < kFirstErrorTest)
     reader.diagnostics().warning(
         {}, fmt::format("the error will never be tested: that begins at {} samples per pixel, and only {} are taken",
                         kFirstErrorTest, settings.spp));
@@ -125,27 +120,31 @@ void replace_integrator(ModelUse& use, const std::string& name, Diagnostics& dia
 void apply_traits(const RenderOverrides& overrides, RenderSettings& settings, Diagnostics& diagnostics) {
   const std::string& name = settings.integrator.model;
   const IntegratorTraits& traits = settings.traits = integrator_traits(name);
-  settings.replicates = overrides.replicates.value_or(traits.correlated_pixels ? kCorrelatedReplicates : 2);
-  if (traits.correlated_pixels && settings.replicates < kReplicatesForSpread) {
+  FilmSettings& film = settings.film;
+  film.splats = traits.splats;
+  film.correlated = traits.correlated_pixels;
+  uint32_t& replicates = film.of_replicates;
+  replicates = overrides.replicates.value_or(traits.correlated_pixels ? kCorrelatedReplicates : 2);
+  if (traits.correlated_pixels && replicates < kReplicatesForSpread) {
     diagnostics.error({}, fmt::format("integrator \"{}\" needs at least {} replicates: no sample of it belongs to one "
                                       "pixel alone, so only their spread tells the error",
                                       name, kReplicatesForSpread));
-    settings.replicates = kReplicatesForSpread;
+    replicates = kReplicatesForSpread;
   }
-  settings.replicate_count = settings.replicates;
+  film.replicates = replicates;
   if (const auto range = overrides.replicate_range) {
-    std::tie(settings.first_replicate, settings.replicate_count) = *range;
-    if (range->second == 0 || uint64_t{range->first} + range->second > settings.replicates)
+    std::tie(film.first_replicate, film.replicates) = *range;
+    if (range->second == 0 || uint64_t{range->first} + range->second > replicates)
       diagnostics.error({}, fmt::format("there are no replicates {} to {}: the image has {}, counted from 0",
-                                        range->first, uint64_t{range->first} + range->second - 1, settings.replicates));
+                                        range->first, uint64_t{range->first} + range->second - 1, replicates));
   }
-  settings.features = overrides.features.value_or(true) && traits.features;
-  settings.alpha = overrides.alpha.value_or(false);
-  settings.ids = overrides.ids.value_or(false);
-  if (!traits.features && (settings.alpha || settings.ids))
+  film.features = overrides.features.value_or(true) && traits.features;
+  film.alpha = overrides.alpha.value_or(false);
+  film.ids = overrides.ids.value_or(false);
+  if (!traits.features && (film.alpha || film.ids))
     diagnostics.error(
         {}, fmt::format("integrator \"{}\" does not look at the scene from the camera, so there {} for it", name,
-                        settings.alpha ? "is no alpha" : "are no layers of ids"));
+                        film.alpha ? "is no alpha" : "are no layers of ids"));
 }
 
 }  // namespace
@@ -160,7 +159,7 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
   fill_empty(sampler, "sobol");
   fill_empty(settings.integrator, "path");
 
-  settings.threads = overrides.threads.value_or(settings.threads);
+  settings.driver.threads = overrides.threads.value_or(settings.driver.threads);
   settings.tile_size = overrides.tile_size.value_or(settings.tile_size);
   if (overrides.sampler) {
     sampler.model = *overrides.sampler;
@@ -168,7 +167,6 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
     take_other_name(Family::kSampler, sampler, diagnostics);
   }
   if (overrides.integrator) replace_integrator(settings.integrator, *overrides.integrator, diagnostics);
-  apply_traits(overrides, settings, diagnostics);
   apply_overrides(overrides.set, {film, sampler, settings.integrator}, diagnostics);
 
   const ModelDecl* film_decl = require_model(Family::kFilm, film, diagnostics);
@@ -178,11 +176,14 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
     check_params(*film_decl, film, diagnostics);
     read_film(ParamReader(*film_decl, film, diagnostics), description, overrides, settings);
   }
+  apply_traits(overrides, settings, diagnostics);
   if (sampler_decl) {
     check_params(*sampler_decl, sampler, diagnostics);
     read_sampler(ParamReader(*sampler_decl, sampler, diagnostics), overrides, settings);
   }
   if (integrator_decl) check_params(*integrator_decl, settings.integrator, diagnostics);
+  const FilmSettings& f = settings.film;
+  settings.driver.spp = settings.spp / f.all_replicates() * f.replicates;
   return settings;
 }
 

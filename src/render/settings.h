@@ -1,16 +1,14 @@
 // Everything a render needs to know beside the scene itself: what the scene file asks for, overridden by the caller.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/bounds.h"
-#include "film/sensor.h"
 #include "integrators/integrator.h"
 #include "params/diagnostics.h"
+#include "render/driver.h"
 #include "samplers/sampler.h"
 #include "scene/description.h"
 #include "textures/image_store.h"
@@ -18,29 +16,19 @@
 namespace etd {
 
 struct RenderSettings {
-  int width = 1280, height = 720;
-  PixelBounds crop{0, 0, 1280, 720};
-  uint32_t spp = 16;           // at most; a multiple of replicates
+  // Of the replicates that are rendered; feature_space starts from the world as the description gives it.
+  FilmSettings film{.width = 1280, .height = 720, .crop = {0, 0, 1280, 720}};
+  DriverSettings driver;       // of the replicates that are rendered
+  uint32_t spp = 16;           // of the whole image, at most; a multiple of all replicates
   bool spp_unlimited = false;  // nobody asked for a number of samples: spp is the largest possible one
-  double seconds = HUGE_VAL;   // of rendering, at most
-  double error = 0;            // that is small enough to stop (estimated_error()); 0: never
-  uint32_t replicates = 2;     // of the whole image
-  uint32_t first_replicate = 0, replicate_count = 2;  // those that are rendered
   uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
   ModelUse integrator;  // with the overrides applied
   IntegratorTraits traits;
-  bool features = true;
-  bool alpha = false;  // and what the picture shows without what is behind everything
-  bool ids = false;    // of objects and materials
-  int threads = 0;     // 0: all cores
   int tile_size = 16;
   TextureMemory textures;
   std::string filename;  // that the scene's film asks for
   bool half = false;     // EXR files of 16-bit floats
-  Sensor sensor;
-  bool positions = false;   // a layer of them
-  Transform feature_space;  // from the world to the space of the layers of normals and positions
 };
 
 // What the caller overrides; absent means as the scene says.

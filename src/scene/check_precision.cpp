@@ -30,8 +30,8 @@ double pixel_at(const Camera& camera, const CameraSample& at, const Ray& ray, fl
 
 }  // namespace
 
-void check_precision(const Scene& scene, int width, int height, Diagnostics& diagnostics) {
-  std::vector<Tally> tallies(scene.names.shapes.size());
+void check_precision(const Scene& scene, const SceneNames& names, int width, int height, Diagnostics& diagnostics) {
+  std::vector<Tally> tallies(names.shapes.size());
   HashStream random(1);
   // What composing transforms in double leaves of the position.
   const double composed = 0x1p-51 * max_component(abs(scene.origin));
@@ -58,10 +58,10 @@ void check_precision(const Scene& scene, int width, int height, Diagnostics& dia
     const Tally& t = tallies[s];
     if (2 * t.unsure <= t.met) continue;
     diagnostics.warning(
-        scene.names.shapes[s].loc,
+        names.shapes[s].loc,
         fmt::format("this {} is met up to {:.2g} away from its place, where a pixel is {:.2g} wide, {:.2g} from the "
                     "camera: shadows and edges on it may be wrong",
-                    scene.names.shapes[s].model, t.error, t.pixel, t.distance),
+                    names.shapes[s].model, t.error, t.pixel, t.distance),
         "coordinates are rounded to 24 bits from the camera on, and to 53 from the origin of the file");
   }
 }

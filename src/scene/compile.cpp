@@ -130,11 +130,11 @@ class MaterialMixes {
 
 // Indices of the description's materials in the scene; material 0 is the default one.
 std::vector<uint32_t> compile_materials(const SceneDescription& description, TextureBuilder& textures, Scene& scene,
-                                        Diagnostics& diagnostics) {
+                                        SceneInfo& info, Diagnostics& diagnostics) {
   static const ModelUse kDefault{"diffuse", {}, {}};
   std::vector<uint32_t> material_of{0};
   std::vector<const ModelUse*> uses{&kDefault};
-  scene.names.material_names.emplace_back();
+  info.names.material_names.emplace_back();
   MaterialNames names;
   for (const MaterialDesc& m : description.materials) {
     const bool is_surface = m.use.model != "interface";
@@ -142,14 +142,14 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
     if (!m.name.empty()) names[m.name] = is_surface ? std::optional(material_of.back()) : std::nullopt;
     if (is_surface) {
       uses.push_back(&m.use);
-      scene.names.material_names.push_back(m.name);
+      info.names.material_names.push_back(m.name);
     }
     check(Family::kMaterial, m.use, diagnostics);
-    ++scene.summary.materials[m.use.model];
+    ++info.summary.materials[m.use.model];
   }
   for (const ModelUse* use : uses) {
     scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
-    scene.names.materials.push_back(name_item(Family::kMaterial, *use));
+    info.names.materials.push_back(name_item(Family::kMaterial, *use));
   }
   const MaterialMixes check_mixes(scene, uses, diagnostics);
   return material_of;
@@ -194,34 +194,33 @@ void load_images(const CompileOptions& options, TextureBuilder& textures, SceneF
   files.images->cache_limit = table.cache_limit;
 }
 
-// Around the box of the scene, with room for rounding.
-BoundingSphere bounding_sphere(const Scene& scene) {
-  const Bounds3& box = scene.summary.bounds;
+// Around the box of the scene, recentred, with room for rounding.
+BoundingSphere bounding_sphere(const Bounds3& box, Vec3d origin) {
   if (box.empty()) return {{}, 1.0f};
   constexpr double kRoom = 1.0 + 1e-5;
   const double radius = 0.5 * length(box.diagonal()) * kRoom;
-  return {to_float(box.center() - scene.origin), std::max(static_cast<float>(radius), 1e-30f)};
+  return {to_float(box.center() - origin), std::max(static_cast<float>(radius), 1e-30f)};
 }
 
 }  // namespace
 
-std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
-                               Diagnostics& diagnostics) {
-  if (!check_object_nesting(description, diagnostics)) return nullptr;
-  auto scene = std::make_unique<Scene>();
+CompiledScene compile(const SceneDescription& description, const CompileOptions& options, Diagnostics& diagnostics) {
+  if (!check_object_nesting(description, diagnostics)) return {};
+  const auto scene = std::make_shared<Scene>();
+  const auto info = std::make_shared<SceneInfo>();
   SceneFiles own, &files = options.files ? *options.files : own;
   if (options.files) scene->light_data.kept = &files.light_images;
-  TextureBuilder textures(scene->textures, description.folder);
+  TextureBuilder textures(scene->textures, description.folder, description.images);
   const TextureOrder build_textures(description, textures, diagnostics);
-  for (const TextureDesc& t : description.textures) ++scene->summary.textures[t.use.model];
-  const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, diagnostics);
+  for (const TextureDesc& t : description.textures) ++info->summary.textures[t.use.model];
+  const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, *info, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   const Viewpoint view = viewpoint_of(description, options);
-  compile_geometry(description, view, material_of, textures, files, *scene, diagnostics);
+  compile_geometry(description, view, material_of, textures, files, *scene, *info, diagnostics);
   textures.recentre(scene->origin);
   load_images(options, textures, files, *scene, diagnostics);
 
-  compile_lights(description, *scene, diagnostics);
+  compile_lights(description, *scene, *info, diagnostics);
 
   check(Family::kCamera, description.camera, diagnostics);
   check(Family::kFilter, description.filter, diagnostics);
@@ -230,16 +229,16 @@ std::unique_ptr<Scene> compile(const SceneDescription& description, const Compil
   if (description.filter_textures)
     scene->footprint =
         PixelFootprint(scene->camera, options.width, options.height, PixelFootprint::scale_for(options.spp));
-  if (diagnostics.has_errors()) return nullptr;
+  if (diagnostics.has_errors()) return {};
 
-  warn_if_nothing_shows(*scene, diagnostics);
+  warn_if_nothing_shows(*scene, info->names, diagnostics);
   scene->light_data.kept = nullptr;
   scene->light_sampler = LightSampler(scene->lights, LightChoice::kPower, to_float(view.position - scene->origin));
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
   scene->seen = seen_by_camera(*scene, options.width, options.height);
-  scene->emission_disks = EmissionDisks(bounding_sphere(*scene), scene->seen);
-  check_precision(*scene, options.width, options.height, diagnostics);
-  return scene;
+  scene->emission_disks = EmissionDisks(bounding_sphere(info->summary.bounds, scene->origin), scene->seen);
+  check_precision(*scene, info->names, options.width, options.height, diagnostics);
+  return {scene, info};
 }
 
 }  // namespace etd

@@ -14,6 +14,7 @@
 namespace etd {
 
 class Scene;
+struct SceneInfo;
 
 // What compile() reads from files, kept by those who compile one description several times, seen by different cameras:
 // then no file is read twice. The description stays where it is.
@@ -31,8 +32,13 @@ struct CompileOptions {
   SceneFiles* files = nullptr;  // if they are kept
 };
 
-// Reports everything that is wrong with the description, and returns null if anything is.
-std::unique_ptr<Scene> compile(const SceneDescription& description, const CompileOptions& options,
-                               Diagnostics& diagnostics);
+// What rays read, and beside it what people are told. Both are null where something was wrong.
+struct CompiledScene {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const SceneInfo> info;
+};
+
+// Reports everything that is wrong with the description.
+CompiledScene compile(const SceneDescription& description, const CompileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace etd

@@ -39,7 +39,8 @@ struct Space {
 class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const Viewpoint& view, const std::vector<uint32_t>& material_of,
-                   const TextureBuilder& textures, SceneFiles& files, Scene& scene, Diagnostics& diagnostics)
+                   const TextureBuilder& textures, SceneFiles& files, Scene& scene, SceneInfo& info,
+                   Diagnostics& diagnostics)
       : description_(description),
         view_(view),
         material_of_(material_of),
@@ -47,6 +48,7 @@ class GeometryCompiler {
         loaded_(files.shapes),
         mesh_files_(files.meshes),
         scene_(scene),
+        info_(info),
         diagnostics_(diagnostics) {}
 
   void run() {
@@ -57,12 +59,11 @@ class GeometryCompiler {
     if (diagnostics_.has_errors()) return;
     measure();
     if (diagnostics_.has_errors()) return;
-    scene_.origin = scene_.summary.bounds.nearest(view_.position) - Point3d{};
-    reserve();
-    scene_.names.objects = std::move(placed_.objects);
+    scene_.origin = info_.summary.bounds.nearest(view_.position) - Point3d{};
+    info_.names.objects = std::move(placed_.objects);
     add_all(placed_.world, {scene_.origin, view_.position}, scene_.geometry.groups[0], true);
     add_groups();
-    add_lights();
+    add_lights();  // which point into the arrays of shapes: these are complete now
   }
 
  private:
@@ -151,7 +152,7 @@ class GeometryCompiler {
     for (const PlacedShape& s : placed_.world) {
       Bounds3 b;
       extend(b, s);
-      add_bounds(scene_.summary.bounds, b, s.shape->use.loc, s.shape->use.model);
+      add_bounds(info_.summary.bounds, b, s.shape->use.loc, s.shape->use.model);
     }
     for (const ShapeGroup& group : placed_.groups) {
       Bounds3& local = group_bounds_.emplace_back();
@@ -161,7 +162,7 @@ class GeometryCompiler {
         add_bounds(local, b, s.shape->use.loc, s.shape->use.model);
       }
       for (const PlacedGroup& i : group.instances)
-        add_bounds(scene_.summary.bounds, instance_bounds(i.to_world, local), i.loc, "instance");
+        add_bounds(info_.summary.bounds, instance_bounds(i.to_world, local), i.loc, "instance");
     }
   }
 
@@ -189,15 +190,6 @@ class GeometryCompiler {
     all.extend(b.hi);
   }
 
-  // Lights and the accelerator keep pointers into these arrays, so they must not grow later.
-  void reserve() {
-    size_t count = placed_.world.size();
-    for (const ShapeGroup& group : placed_.groups) count += group.shapes.size();
-    scene_.geometry.meshes.reserve(count);
-    scene_.geometry.patch_meshes.reserve(count);
-    scene_.geometry.quadrics.reserve(count);
-  }
-
   // `may_emit`: the group is in one place alone. Surfaces of invisible lights are there for sampling, in a group that
   // nothing refers to; they come last, because a group's quadrics stand in a row.
   void add_all(const std::vector<PlacedShape>& shapes, const Space& space, GeometryGroup& group, bool may_emit) {
@@ -215,14 +207,14 @@ class GeometryCompiler {
     const Point3d viewer = space.viewer - space.origin;
     SurfaceBinding binding;
     binding.material = material_of_[static_cast<size_t>(placed.shape->material + 1)];
-    binding.shape = static_cast<uint32_t>(scene_.names.shapes.size());
-    scene_.names.shapes.push_back(name_item(Family::kShape, placed.shape->use));
+    binding.shape = static_cast<uint32_t>(info_.names.shapes.size());
+    info_.names.shapes.push_back(name_item(Family::kShape, placed.shape->use));
     if (placed.object >= 0) binding.object = static_cast<uint32_t>(placed.object);
     if (const auto alpha = alpha_.find(placed.shape); alpha != alpha_.end()) {
       scene_.has_holes = binding.has_holes = true;
       binding.alpha = alpha->second;
     }
-    ++scene_.summary.shapes[placed.shape->use.model];
+    ++info_.summary.shapes[placed.shape->use.model];
     const bool reverse = placed.shape->reverse_orientation;
     Emitter emitter{placed.shape, Emitter::Kind::kQuadric, 0};
     if (it->second.mesh) {
@@ -232,7 +224,7 @@ class GeometryCompiler {
       scene_.moves |= it->second.mesh->motion_steps > 1;
       warn_if_coarse(*placed.shape, scene_.geometry.meshes.back(), viewer);
       scene_.mesh_bindings.push_back(binding);
-      scene_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
+      info_.summary.triangles += scene_.geometry.meshes.back().triangles.size();
     } else if (it->second.patches) {
       emitter = {placed.shape, Emitter::Kind::kPatches, static_cast<uint32_t>(scene_.geometry.patch_meshes.size())};
       group.patch_meshes.push_back(emitter.index);
@@ -259,7 +251,7 @@ class GeometryCompiler {
   }
 
   void add_groups() {
-    size_t triangles_seen = scene_.summary.triangles;
+    size_t triangles_seen = info_.summary.triangles;
     const TransformPath recentre = TransformPath().then(Transform::translate(-scene_.origin));
     for (size_t g = 0; g < placed_.groups.size(); ++g) {
       const ShapeGroup& shapes = placed_.groups[g];
@@ -267,9 +259,9 @@ class GeometryCompiler {
       const Space space = group_space(shapes, local);
       GeometryGroup group;
       group.quadric_begin = group.quadric_end = static_cast<uint32_t>(scene_.geometry.quadrics.size());
-      const size_t before = scene_.summary.triangles, first_emitter = emitters_.size();
+      const size_t before = info_.summary.triangles, first_emitter = emitters_.size();
       add_all(shapes.shapes, space, group, !shapes.is_shared);
-      triangles_seen += (scene_.summary.triangles - before) * shapes.instances.size();
+      triangles_seen += (info_.summary.triangles - before) * shapes.instances.size();
       const auto index = static_cast<uint32_t>(scene_.geometry.groups.size());
       scene_.geometry.groups.push_back(std::move(group));
       const double size = local.empty() ? 0.0 : length(local.diagonal());
@@ -278,7 +270,7 @@ class GeometryCompiler {
       for (size_t e = first_emitter; e < emitters_.size(); ++e)
         emitters_[e].motion = scene_.geometry.instances.back().motion;
     }
-    scene_.summary.instanced_triangles = triangles_seen;
+    info_.summary.instanced_triangles = triangles_seen;
   }
 
   // As for the world, the origin is the point nearest to the viewer; among several instances, as the nearest of them
@@ -309,7 +301,7 @@ class GeometryCompiler {
   }
 
   void add_lights() {
-    AreaLightCompiler lights(description_.folder, scene_, diagnostics_);
+    AreaLightCompiler lights(description_.folder, scene_, info_, diagnostics_);
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const size_t first = scene_.lights.size();
@@ -319,7 +311,7 @@ class GeometryCompiler {
       if (e.kind == Emitter::Kind::kQuadric) lights.add_quadric(use, e.index, invisible);
       for (size_t i = first; e.motion && i < scene_.lights.size(); ++i)
         scene_.lights[i] = scene_.lights[i].moving(*e.motion);
-      scene_.names.lights.resize(scene_.lights.size(), {"area light", use.loc});
+      info_.names.lights.resize(scene_.lights.size(), {"area light", use.loc});
       const auto alpha = alpha_.find(e.shape);
       if (alpha == alpha_.end()) continue;
       scene_.light_alphas.resize(first, {1.0f, -1});
@@ -334,6 +326,7 @@ class GeometryCompiler {
   std::map<const ShapeDesc*, ShapeGeometry>& loaded_;
   MeshFiles& mesh_files_;
   Scene& scene_;
+  SceneInfo& info_;
   Diagnostics& diagnostics_;
   PlacedShapes placed_;
   std::vector<Bounds3> group_bounds_;              // of placed_.groups, in their own space
@@ -346,8 +339,8 @@ class GeometryCompiler {
 
 void compile_geometry(const SceneDescription& description, const Viewpoint& view,
                       const std::vector<uint32_t>& material_of, const TextureBuilder& textures, SceneFiles& files,
-                      Scene& scene, Diagnostics& diagnostics) {
-  GeometryCompiler(description, view, material_of, textures, files, scene, diagnostics).run();
+                      Scene& scene, SceneInfo& info, Diagnostics& diagnostics) {
+  GeometryCompiler(description, view, material_of, textures, files, scene, info, diagnostics).run();
 }
 
 }  // namespace etd

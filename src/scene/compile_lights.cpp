@@ -111,7 +111,7 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invis
   for (auto& light : triangles) scene_.lights.push_back(Light(light.scaled(scale)));
   scene_.mesh_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
   for (const uint32_t surface : surfaces.of_triangle) scene_.face_lights.push_back(first + surface);
-  ++scene_.summary.lights[use.model + " area light"];
+  ++info_.summary.lights[use.model + " area light"];
 }
 
 void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool invisible) {
@@ -128,7 +128,7 @@ void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool in
     scene_.face_lights.push_back(static_cast<uint32_t>(scene_.lights.size()));
     scene_.lights.push_back(Light(light.scaled(scale)));
   }
-  ++scene_.summary.lights[use.model + " area light"];
+  ++info_.summary.lights[use.model + " area light"];
 }
 
 void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool invisible) {
@@ -138,7 +138,7 @@ void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool in
   check_power(light.power() * scale, use, diagnostics_);
   scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
   scene_.lights.push_back(Light(light.scaled(scale)));
-  ++scene_.summary.lights[use.model + " area light"];
+  ++info_.summary.lights[use.model + " area light"];
 }
 
 namespace {
@@ -164,7 +164,7 @@ std::optional<Light> make_moving_light(const ModelUse& use, const TransformPath&
 
 // The light in one of its places.
 void add_light(const LightDesc& desc, const TransformPath& place, const std::filesystem::path& folder, Scene& scene,
-               Diagnostics& diagnostics) {
+               SceneInfo& info, Diagnostics& diagnostics) {
   const TransformPath to_world = place.then(desc.to_world);
   const Transform from_world = Transform::translate(-scene.origin) * place.at(0);
   const auto light =
@@ -176,8 +176,8 @@ void add_light(const LightDesc& desc, const TransformPath& place, const std::fil
   if (light->is_infinite() && !light->is_delta())
     scene.infinite_lights.push_back(static_cast<uint32_t>(scene.lights.size()));
   scene.lights.push_back(*light);
-  scene.names.lights.push_back(name_item(Family::kLight, desc.use));
-  ++scene.summary.lights[desc.use.model];
+  info.names.lights.push_back(name_item(Family::kLight, desc.use));
+  ++info.summary.lights[desc.use.model];
 }
 
 // What users of pbrt-v4 may not expect of lights in objects.
@@ -193,13 +193,14 @@ void explain_places(const PlacedLight& placed, const Light* light, Diagnostics& 
 
 }  // namespace
 
-void compile_lights(const SceneDescription& description, Scene& scene, Diagnostics& diagnostics) {
+void compile_lights(const SceneDescription& description, Scene& scene, SceneInfo& info, Diagnostics& diagnostics) {
   for (const PlacedLight& placed : place_lights(description, diagnostics)) {
     const LightDesc& desc = *placed.light;
     if (const ModelDecl* decl = find_model(Family::kLight, desc.use.model)) check_params(*decl, desc.use, diagnostics);
     if (!check_transform(desc.to_world, desc.use.loc, "light", diagnostics)) continue;
     const size_t first = scene.lights.size();
-    for (const TransformPath& place : placed.places) add_light(desc, place, description.folder, scene, diagnostics);
+    for (const TransformPath& place : placed.places)
+      add_light(desc, place, description.folder, scene, info, diagnostics);
     explain_places(placed, first < scene.lights.size() ? &scene.lights[first] : nullptr, diagnostics);
     if (!placed.places.empty()) continue;
     LightData unused;  // a mistake in an object without an instance is a mistake too

@@ -9,6 +9,7 @@
 
 #include "core/transform.h"
 #include "io/mesh.h"
+#include "io/named_images.h"
 #include "params/param.h"
 
 namespace etd {
@@ -32,7 +33,7 @@ struct ShapeDesc {
   int material = -1;    // index into materials; -1: the default diffuse
   int area_light = -1;  // index into area_lights; -1: does not emit
   int part = 0;         // of one thing that is several shapes, which follow each other
-  // What a reader took from a file for a "trianglemesh", which then has no vertices of its own.
+  // For a "trianglemesh", which then has no vertices of its own: what a reader took from a file, or what code made.
   std::shared_ptr<const MeshData> mesh = nullptr;
 };
 
@@ -73,6 +74,7 @@ struct SceneDescription : ViewDescription {
   std::filesystem::path file;    // of the scene, for messages and metadata
   std::filesystem::path folder;  // that relative file names in it start from
 
+  NamedImages images;  // of textures, where these are no files
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;
   std::vector<ModelUse> area_lights;

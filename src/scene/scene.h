@@ -1,21 +1,18 @@
-// The immutable scene: flat arrays that every thread may read. Built by compile().
+// The immutable scene: flat arrays that every thread may read, and nothing but what rays read. Built by compile();
+// scene/info.h has what people are told about it.
 #pragma once
 
-#include <limits>
-#include <map>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "accel/accelerator.h"
 #include "accel/surface.h"
 #include "cameras/footprint.h"
-#include "core/bounds.h"
 #include "film/pixel_ids.h"
 #include "filters/filter.h"
 #include "light_sampling/light_sampler.h"
 #include "lights/light_data.h"
 #include "materials/material.h"
-#include "scene/names.h"
 
 namespace etd {
 
@@ -43,14 +40,6 @@ struct Shading {
   Bsdf closure;
   Frame frame;
   const Material* material = nullptr;  // of a mix the one that was chosen
-};
-
-// What `etendue info` tells beside the sizes of the arrays.
-struct SceneSummary {
-  std::map<std::string, size_t> shapes, materials, textures, lights;  // by model, as the scene names them
-  size_t triangles = 0;                                               // in memory
-  size_t instanced_triangles = 0;                                     // as rays see them
-  Bounds3 bounds;                                                     // of the world, not recentred
 };
 
 class Scene {
@@ -107,8 +96,6 @@ class Scene {
   BoundingSphere seen;           // around most of what the camera sees; of radius 0 if that is nothing
   EmissionDisks emission_disks;  // where rays of infinite lights enter
   Vec3d origin;                  // world position that was moved to (0, 0, 0)
-  SceneSummary summary;
-  SceneNames names;
 
  private:
   // Returns where textures are looked up at a point, without a footprint.

@@ -41,7 +41,7 @@ std::set<uint32_t> used_materials(const Scene& scene) {
 
 }  // namespace
 
-void warn_if_nothing_shows(const Scene& scene, Diagnostics& diagnostics) {
+void warn_if_nothing_shows(const Scene& scene, const SceneNames& names, Diagnostics& diagnostics) {
   const auto is_point = [](const Light& light) { return light.is_delta(); };
   if (scene.lights.empty() || !std::all_of(scene.lights.begin(), scene.lights.end(), is_point)) return;
   const std::set<uint32_t> used = used_materials(scene);
@@ -49,7 +49,7 @@ void warn_if_nothing_shows(const Scene& scene, Diagnostics& diagnostics) {
   for (const uint32_t material : used)
     if (scene.materials[material].children().empty() && !is_smooth(scene.materials[material], scene)) return;
   diagnostics.warning(
-      scene.names.materials[*used.begin()].loc,
+      names.materials[*used.begin()].loc,
       "nothing can be seen: every surface is perfectly smooth, and all light comes from points or single "
       "directions, which no mirror shows",
       "a \"roughness\" above 0 shows highlights, and area lights or an infinite light show mirrors");

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "params/diagnostics.h"
+#include "scene/names.h"
 #include "scene/scene.h"
 
 namespace etd {
 
 // Warns when all light comes from points or single directions and every surface is perfectly smooth: no ray that leaves
 // such a surface meets such a light, so that nothing can be seen.
-void warn_if_nothing_shows(const Scene& scene, Diagnostics& diagnostics);
+void warn_if_nothing_shows(const Scene& scene, const SceneNames& names, Diagnostics& diagnostics);
 
 }  // namespace etd

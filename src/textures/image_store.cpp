@@ -43,8 +43,15 @@ int32_t ImageStore::add(const Param& filename, std::string_view encoding, const 
   const auto [known, is_new] =
       index_of_.try_emplace({path.string(), options_text, levels}, static_cast<int32_t>(requests_.size()));
   if (!is_new) return known->second;
-  requests_.push_back(
-      {path, {parsed, layer, diagnostics.limits()}, options_text, levels, filename.value_loc, filename.strings[0]});
+  const std::string& name = filename.strings[0];
+  const auto given = given_.find(name);
+  requests_.push_back({path,
+                       {parsed, layer, diagnostics.limits()},
+                       options_text,
+                       levels,
+                       filename.value_loc,
+                       name,
+                       given == given_.end() ? nullptr : given->second});
   table_.images.emplace_back();
   return known->second;
 }
@@ -53,6 +60,7 @@ void ImageStore::load(const TextureMemory& memory, Diagnostics& diagnostics) {
   size_t needed = 0;
   std::set<std::pair<fs::path, std::string>> counted;
   for (const Request& r : requests_) {
+    if (r.given) continue;
     const size_t finest = image_bytes(r.path, r.options);
     if (counted.emplace(r.path, r.options_text).second) needed += finest;
     if (r.levels) needed += finest * 2 / 3;  // a third of the texels, of up to twice the size
@@ -63,8 +71,9 @@ void ImageStore::load(const TextureMemory& memory, Diagnostics& diagnostics) {
     table_.cache_limit = memory.limit;
   }
   for (; loaded_ < requests_.size(); ++loaded_)
-    table_.images[loaded_] = fits ? in_memory(requests_[loaded_], diagnostics)
-                                  : from_tiles(requests_[loaded_], memory.cache_folder, diagnostics);
+    table_.images[loaded_] = fits || requests_[loaded_].given
+                                 ? in_memory(requests_[loaded_], diagnostics)
+                                 : from_tiles(requests_[loaded_], memory.cache_folder, diagnostics);
 }
 
 std::optional<ImageResult> ImageStore::read(const Request& r, Diagnostics& diagnostics) const {
@@ -82,15 +91,21 @@ void ImageStore::report(const Request& r, const std::vector<std::string>& notes,
   for (const std::string& note : notes) diagnostics.note(r.loc, fmt::format("image \"{}\": {}", r.name, note));
 }
 
-TextureImage ImageStore::in_memory(const Request& r, Diagnostics& diagnostics) {
+std::shared_ptr<const Image> ImageStore::finest(const Request& r, Diagnostics& diagnostics) {
+  if (r.given) return r.given;
   const auto [it, is_new] = finest_.try_emplace({r.path.string(), r.options_text}, nullptr);
   if (is_new)
     if (std::optional<ImageResult> result = read(r, diagnostics)) {
       report(r, result->notes, diagnostics);
       it->second = std::make_shared<const Image>(std::move(*result->image));
     }
-  if (!it->second) return {};
-  return TextureImage(it->second, r.levels ? coarser_levels(*it->second, *r.levels) : std::vector<Image>());
+  return it->second;
+}
+
+TextureImage ImageStore::in_memory(const Request& r, Diagnostics& diagnostics) {
+  const std::shared_ptr<const Image> image = finest(r, diagnostics);
+  if (!image) return {};
+  return TextureImage(image, r.levels ? coarser_levels(*image, *r.levels) : std::vector<Image>());
 }
 
 namespace {

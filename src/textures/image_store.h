@@ -1,5 +1,5 @@
 // The images that a scene's textures ask for: each file is read once, into memory if all of them fit, otherwise by way
-// of files of tiles in a folder that later renders use again.
+// of files of tiles in a folder that later renders use again. Images that are in memory already stay there.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "io/named_images.h"
 #include "params/declaration.h"
 #include "textures/texture.h"
 
@@ -24,7 +25,9 @@ struct TextureMemory {
 
 class ImageStore {
  public:
-  ImageStore(TextureTable& table, std::filesystem::path folder) : table_(table), folder_(std::move(folder)) {}
+  // `given`: images that are no files.
+  ImageStore(TextureTable& table, std::filesystem::path folder, NamedImages given)
+      : table_(table), folder_(std::move(folder)), given_(std::move(given)) {}
 
   // Index of an image of the table, which load() will read; with coarser levels if it says how the image is wrapped for
   // them. An empty encoding is the one that the file says. -1 and an error for an unknown encoding.
@@ -40,9 +43,12 @@ class ImageStore {
     std::string options_text;  // tells them apart
     std::optional<ImageWrap> levels;
     SourceLoc loc;
-    std::string name;  // as the scene writes it
+    std::string name;                    // as the scene writes it
+    std::shared_ptr<const Image> given;  // null: it is a file
   };
 
+  // Null and an error when the image can't be read.
+  std::shared_ptr<const Image> finest(const Request& r, Diagnostics& diagnostics);
   TextureImage in_memory(const Request& r, Diagnostics& diagnostics);
   TextureImage from_tiles(const Request& r, const std::filesystem::path& cache_folder, Diagnostics& diagnostics);
   std::optional<ImageResult> read(const Request& r, Diagnostics& diagnostics) const;
@@ -52,6 +58,7 @@ class ImageStore {
 
   TextureTable& table_;
   std::filesystem::path folder_;
+  NamedImages given_;
   std::vector<Request> requests_;  // by index in the table
   std::map<std::tuple<std::string, std::string, std::optional<ImageWrap>>, int32_t> index_of_;
   size_t loaded_ = 0;

@@ -25,8 +25,9 @@ Spectrum emission_value(const ParamReader& params, std::string_view name);
 // The textures built so far by name, and the means to build more.
 class TextureBuilder {
  public:
-  TextureBuilder(TextureTable& table, std::filesystem::path folder)
-      : table_(table), images_(table, std::move(folder)) {}
+  // `images`: those that are no files in the folder.
+  TextureBuilder(TextureTable& table, std::filesystem::path folder, NamedImages images = {})
+      : table_(table), images_(table, std::move(folder), std::move(images)) {}
 
   // Builds a checked use, whose children must have been built before. A float texture is made of float textures only.
   void add(const std::string& name, bool is_float, const ModelUse& use, const Transform& to_world,

@@ -205,16 +205,16 @@ edit(integrators/path.cpp [[pdf_light = lights.probability(light) * pdf;]]
      [[pdf_light = (FAULT ? 1.0f : lights.probability(light)) * pdf;]])
 
 fault(power-heuristic-squares-one "the power heuristic squares one of the two densities alone" "VerifyScene.*")
-edit(integrators/mis.h [[p2 / (p2 + o2) : larger;]] [[p2 / (p2 + (FAULT ? other : o2)) : larger;]])
+edit(core/mis.h [[p2 / (p2 + o2) : larger;]] [[p2 / (p2 + (FAULT ? other : o2)) : larger;]])
 
 fault(balance-heuristic-counts-twice "the balance heuristic counts its own density twice" "VerifyScene.*")
-edit(integrators/mis.h [[isfinite(sum) ? pdf / sum : larger;]] [[isfinite(sum) ? pdf / (FAULT ? sum + pdf : sum) : larger;]])
+edit(core/mis.h [[isfinite(sum) ? pdf / sum : larger;]] [[isfinite(sum) ? pdf / (FAULT ? sum + pdf : sum) : larger;]])
 
 fault(maximum-heuristic-counts-the-smaller "the maximum heuristic gives one half to the smaller density, too" "StatisticalAgreement.ConductorBox")
-edit(integrators/mis.h [[pdf > 0.0f ? 0.5f : 0.0f)]] [[pdf > 0.0f ? 0.5f : FAULT ? 0.5f : 0.0f)]])
+edit(core/mis.h [[pdf > 0.0f ? 0.5f : 0.0f)]] [[pdf > 0.0f ? 0.5f : FAULT ? 0.5f : 0.0f)]])
 
 fault(uniform-heuristic-of-one "uniform weights are one half even where one technique is alone" "Mis.*")
-edit(integrators/mis.h [[(other > 0.0f ? 0.5f : 1.0f)]] [[(FAULT || other > 0.0f ? 0.5f : 1.0f)]])
+edit(core/mis.h [[(other > 0.0f ? 0.5f : 1.0f)]] [[(FAULT || other > 0.0f ? 0.5f : 1.0f)]])
 
 fault(uniform-choice-weighted-by-power "lights chosen all alike are weighted as if by their power" "VerifyScene.*")
 edit(integrators/next_event.h [[const float pdf = choice->probability * s->pdf;]]

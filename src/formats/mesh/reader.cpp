@@ -58,9 +58,6 @@ Stage make_stage(const std::vector<ShapeDesc>& shapes) {
   return stage;
 }
 
-constexpr double kPiDouble = 3.14159265358979323846;
-double radians(double degrees) { return degrees * kPiDouble / 180; }
-
 void add_camera(const Stage& stage, SceneDescription& scene) {
   constexpr double kFov = 30, kAzimuth = 30, kElevation = 22, kMargin = 1.02;
   const double distance = kMargin * stage.radius / std::sin(radians(kFov / 2));

@@ -1,0 +1,83 @@
+// Scenes whose meshes and images were made in code: they must look like those that come from files.
+#include <gtest/gtest.h>
+
+#include "formats/pbrt/reader.h"
+#include "io/pfm.h"
+#include "model_uses.h"
+#include "render_helper.h"
+#include "same_bits.h"
+#include "temp_folder.h"
+
+namespace etd {
+namespace {
+
+const std::string kView = R"(
+Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+LookAt 0 0 4  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.4 0.5 0.6 ]
+LightSource "point" "point3 from" [ 1 2 3 ] "rgb I" [ 9 8 7 ]
+)";
+
+SceneDescription read(const std::string& world, const TempFolder& folder) {
+  Diagnostics diagnostics;
+  SceneDescription scene = read_pbrt_text(kView + world, "test.pbrt", folder.path(), diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
+  return scene;
+}
+
+RenderOverrides overrides() {
+  RenderOverrides o;
+  o.spp = 8;
+  o.seed = 1;
+  return o;
+}
+
+TEST(SceneInMemory, AMeshLooksLikeItsFile) {
+  const TempFolder folder;
+  folder.write("a.obj",
+               "v -1 -1 0\nv 1 -1 0.25\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0.5 1\nvt 0.5 0.5\nvn 0 0.1 1\n"
+               "vn 0.2 0 1\nvn 0 -0.1 1\nvn 0 0 1\nf 1/1/1 2/2/2 4/4/4\nf 2/2/2 3/3/3 4/4/4\nf 3/3/3 1/1/1 4/4/4\n");
+  const SceneDescription file = read(
+      "Texture \"c\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4\n"
+      "Material \"diffuse\" \"texture reflectance\" \"c\"\nShape \"objmesh\" \"string filename\" \"a.obj\"\n",
+      folder);
+  ASSERT_EQ(file.shapes.size(), 1u);
+
+  MeshData mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0.25}, {0, 0, 1}, {0, 1, 0}};
+  mesh.normals = {{0, 0.1f, 1}, {0.2f, 0, 1}, {0, 0, 1}, {0, -0.1f, 1}};
+  mesh.uvs = {{0, 0}, {1, 0}, {0.5f, 0.5f}, {0.5f, 1}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 0, 2}};
+  SceneDescription made = file;
+  made.shapes[0].use = use_of("trianglemesh");
+  made.shapes[0].mesh = std::make_shared<const MeshData>(std::move(mesh));
+  expect_same_bits(render_description(made, overrides()), render_description(file, overrides()));
+}
+
+TEST(SceneInMemory, AnImageLooksLikeItsFile) {
+  std::vector<float> texels;
+  for (int i = 0; i < 8 * 8 * 3; ++i) texels.push_back(static_cast<float>(i * 37 % 64) / 64);
+  for (const char* filter : {"bilinear", "trilinear"}) {
+    const std::string world = std::string("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.pfm\"") +
+                              " \"string filter\" \"" + filter +
+                              "\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n";
+    const TempFolder folder, without_file, cache;
+    folder.write("a.pfm", encode_pfm(8, 8, texels));
+    SceneDescription made = read(world, without_file);
+    made.images["a.pfm"] = std::make_shared<const Image>(8, 8, 3, texels);
+    const Film expected = render_description(read(world, folder), overrides());
+    expect_same_bits(render_description(made, overrides()), expected);
+
+    // It stays where it is however little memory is left for files.
+    RenderOverrides no_memory = overrides();
+    no_memory.texture_memory = 0;
+    no_memory.texture_cache = cache.path();
+    expect_same_bits(render_description(made, no_memory), expected);
+    EXPECT_EQ(cache.entries(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace etd
