@@ -83,7 +83,7 @@ TEST(Alpha, AnAreaLightOfNoneShinesAndIsMetByNoRay) {
     ASSERT_EQ(scene->lights.size(), 1u) << shape;
     EXPECT_TRUE(scene->lights[0].is_delta());
     const Point3 above{0.1f, 0.1f, 3};
-    const auto s = scene->lights[0].sample_li(above, {0.4f, 0.3f});
+    const auto s = scene->lights[0].sample_li(above, {0.4f, 0.3f}, {});
     ASSERT_TRUE(s) << shape;
     EXPECT_TRUE(s->is_delta && max_value(s->radiance) > 0);
     Hit hit;

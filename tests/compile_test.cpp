@@ -127,7 +127,7 @@ TEST(Compile, EmittersInObjectsBecomeLightsOfTheWorld) {
   std::vector<bool> met(3, false);
   for (const double x : {0.25, 5.25, 9.25})
     for (uint32_t light = 0; light < 3; ++light) {
-      const auto s = scene->lights[light].sample_li(to_float(Point3d{x, 0.25, 1} - scene->origin), {0.5f, 0.5f});
+      const auto s = scene->lights[light].sample_li(to_float(Point3d{x, 0.25, 1} - scene->origin), {0.5f, 0.5f}, {});
       ASSERT_TRUE(s);  // on the side of +z
       met[light] = true;
     }
@@ -154,9 +154,10 @@ TEST(Compile, LightsOfMeshesFollowTheirTriangles) {
   EXPECT_EQ(dark->light, kNoId);
   for (const auto& hit : {*lower, *upper, *half, *ball}) {
     ASSERT_LT(hit.light, 4u);
-    EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, 1})[0], 2.0f);
-    EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, -1})[0], 0.0f);
-    EXPECT_GT(scene->lights[hit.light].pdf_li({0, 0, 30}, normalize(hit.point.p - Point3{0, 0, 30}), &hit.point), 0.0f);
+    EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, 1}, {})[0], 2.0f);
+    EXPECT_EQ(scene->lights[hit.light].emitted(&hit.point, {0, 0, -1}, {})[0], 0.0f);
+    EXPECT_GT(scene->lights[hit.light].pdf_li({0, 0, 30}, normalize(hit.point.p - Point3{0, 0, 30}), &hit.point, {}),
+              0.0f);
   }
   EXPECT_FLOAT_EQ(scene->lights[ball->light].power()[0], 2 * kPi * kPi);
 }
@@ -250,7 +251,7 @@ TEST(Compile, MaterialsAndTexturesReachTheSurface) {
   EXPECT_EQ(info->summary.materials.at("diffuse"), 1u);
   const auto hit = look(*scene, {0.25, 0.25, 10}, {0, 0, -1});
   ASSERT_TRUE(hit);
-  const Spectrum albedo = hit->material->closure({hit->point.uv}, scene->textures).albedo({0, 0, 1});
+  const Spectrum albedo = hit->material->closure({hit->point.uv}, scene->textures, {}).albedo({0, 0, 1});
   EXPECT_EQ(albedo[0], 0.5f);
   EXPECT_EQ(albedo[2], 0.125f);
 }

@@ -38,12 +38,12 @@ double sampled_solid_angle(const Light& light, Point3 p) {
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
       const auto s =
-          light.sample_li(p, {(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps});
+          light.sample_li(p, {(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps}, {});
       if (!s) continue;
       sum += 1.0 / s->pdf;
       EXPECT_NEAR(length(s->wi), 1.0f, 1e-5f);
-      EXPECT_NEAR(light.pdf_li(p, s->wi, &s->on_light) / s->pdf, 1.0f, 2e-3f);
-      EXPECT_EQ(light.emitted(&s->on_light, -s->wi)[0], s->radiance[0]);
+      EXPECT_NEAR(light.pdf_li(p, s->wi, &s->on_light, {}) / s->pdf, 1.0f, 2e-3f);
+      EXPECT_EQ(light.emitted(&s->on_light, -s->wi, {})[0], s->radiance[0]);
       const float distance = length(s->on_light.p - p);
       EXPECT_LT(length(s->on_light.p - p - s->wi * distance), 1e-6f * distance);
     }
@@ -76,8 +76,8 @@ TEST(DiffuseAreaLight, TriangleSolidAngleAndSides) {
     // Nothing is sampled towards the dark side, so its density is 0.
     const SurfacePoint s = sample_triangle(turned, 0, {0.3f, 0.3f});
     const Point3 dark = flip ? p : behind;
-    EXPECT_EQ(one.pdf_li(dark, normalize(s.p - dark), &s), 0.0f);
-    EXPECT_GT(two.pdf_li(dark, normalize(s.p - dark), &s), 0.0f);
+    EXPECT_EQ(one.pdf_li(dark, normalize(s.p - dark), &s, {}), 0.0f);
+    EXPECT_GT(two.pdf_li(dark, normalize(s.p - dark), &s, {}), 0.0f);
     EXPECT_FALSE(one.is_infinite());
     EXPECT_NEAR(one.power()[0], 3 * kPi * surface.area(), 1e-4f);
     EXPECT_EQ(two.power()[0], 2 * one.power()[0]);
@@ -88,9 +88,9 @@ TEST(DiffuseAreaLight, DegenerateTrianglesGiveNothing) {
   const Mesh m = triangle_mesh({1, 1, 1}, {2, 2, 2}, {3, 3, 3});
   const Light light(DiffuseAreaLight<TriangleSurface>(uniform(1, true), TriangleSurface(m, 0)));
   EXPECT_EQ(light.power()[0], 0.0f);
-  EXPECT_FALSE(light.sample_li({0, 0, 1}, {0.3f, 0.3f}));
+  EXPECT_FALSE(light.sample_li({0, 0, 1}, {0.3f, 0.3f}, {}));
   const SurfacePoint s = triangle_point(m, 0, 0.3f, 0.3f);
-  EXPECT_EQ(light.pdf_li({0, 0, 1}, normalize(s.p - Point3{0, 0, 1}), &s), 0.0f);
+  EXPECT_EQ(light.pdf_li({0, 0, 1}, normalize(s.p - Point3{0, 0, 1}), &s, {}), 0.0f);
   // A point of the light itself sees no light from it.
   const Mesh flat = triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   const Light wide(DiffuseAreaLight<TriangleSurface>(uniform(1, false), TriangleSurface(flat, 0)));
@@ -139,15 +139,15 @@ TEST(ConstantInfiniteLight, EveryDirectionAlike) {
   for (int i = 0; i < 64; ++i)
     for (int j = 0; j < 64; ++j) {
       const auto s =
-          light.sample_li({5, 5, 5}, {(static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64});
+          light.sample_li({5, 5, 5}, {(static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64}, {});
       ASSERT_TRUE(s);
-      EXPECT_EQ(s->pdf, light.pdf_li({5, 5, 5}, s->wi, nullptr));
+      EXPECT_EQ(s->pdf, light.pdf_li({5, 5, 5}, s->wi, nullptr, {}));
       EXPECT_EQ(s->radiance[2], 3.0f);
-      EXPECT_EQ(light.emitted(nullptr, -s->wi)[1], 2.0f);
+      EXPECT_EQ(light.emitted(nullptr, -s->wi, {})[1], 2.0f);
       sum += s->wi;
     }
   EXPECT_LT(length(sum) / 4096, 1e-5f);
-  EXPECT_FLOAT_EQ(light.pdf_li({}, {0, 0, 1}, nullptr) * 4 * kPi, 1.0f);
+  EXPECT_FLOAT_EQ(light.pdf_li({}, {0, 0, 1}, nullptr, {}) * 4 * kPi, 1.0f);
   EXPECT_FLOAT_EQ(light.power()[0], 4 * kPi * kPi);
 }
 

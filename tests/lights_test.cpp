@@ -52,7 +52,7 @@ TEST(LightParameters, PowerIsTheLuminanceOfWhatIsEmitted) {
 
 TEST(LightParameters, PositionsFollowTheTransform) {
   const Lights lights(R"(Translate 1 2 3 Scale 2 2 2 LightSource "point" "point3 from" [1 0 0])");
-  const auto s = lights.only().sample_li({3, 2, 0}, {});
+  const auto s = lights.only().sample_li({3, 2, 0}, {}, {});
   ASSERT_TRUE(s);
   EXPECT_NEAR(length(s->wi - Vec3{0, 0, 1}), 0.0f, 1e-6f);
   EXPECT_NEAR(s->radiance[0], 1.0f / 9.0f, 1e-6f);
@@ -84,10 +84,10 @@ TEST(ImageInfiniteLight, SamplesCarryWhatRaysFind) {
   for (int i = 0; i < 10000; ++i) {
     const float x = numbers.next_float(), y = numbers.next_float();
     for (const LightSampling sampling : {LightSampling::kComplete, LightSampling::kCompensated}) {
-      const auto s = light.sample_li({}, {x, y}, sampling);
+      const auto s = light.sample_li({}, {x, y}, {}, sampling);
       ASSERT_TRUE(s);
-      ASSERT_EQ(light.pdf_li({}, s->wi, nullptr, sampling), s->pdf);
-      ASSERT_EQ(light.emitted(nullptr, -s->wi)[1], s->radiance[1]);
+      ASSERT_EQ(light.pdf_li({}, s->wi, nullptr, {}, sampling), s->pdf);
+      ASSERT_EQ(light.emitted(nullptr, -s->wi, {})[1], s->radiance[1]);
     }
   }
 }

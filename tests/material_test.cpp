@@ -25,7 +25,7 @@ Bsdf closure(const ModelUse& use) {
   TextureBuilder builder(table, {});
   const auto material = make_material(use, builder, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
-  return material->closure({}, table);
+  return material->closure({}, table, {});
 }
 
 int errors_of(const ModelUse& use) {
@@ -112,7 +112,7 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   builder.load_images({}, diagnostics);
   const auto material = make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, diagnostics);
   ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
-  const Spectrum albedo = material->closure({}, table).albedo(kUp);
+  const Spectrum albedo = material->closure({}, table, {}).albedo(kUp);
   EXPECT_EQ(albedo[0], 1.0f);
   EXPECT_EQ(albedo[1], 0.0f);
   EXPECT_EQ(albedo[2], 0.25f);

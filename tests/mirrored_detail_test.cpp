@@ -98,7 +98,7 @@ class MirroredDetail : public ::testing::TestWithParam<Subject> {
     EXPECT_TRUE(scene.intersect({to_float(o), to_float(d * (1 / length(d))), kInfinity, 0}, hit));
     const SurfaceHit surface = scene.surface(hit);
     HashStream rng(1);
-    return {surface.point, scene.shade(surface, rng).frame};
+    return {surface.point, scene.shade(surface, {}, rng).frame};
   }
 
   // The axes of growing u and v, at right angles to each other and to the shading normal, and the length of dp/dv along

@@ -85,7 +85,7 @@ TEST(Motion, LightsMoveWithTheirInstances) {
   EXPECT_NEAR(scene->lights[1 - small].power()[0] / light.power()[0], 4, 1e-4);
   const Point3 p = to_float(Point3d{1, 0, 0} - scene->origin);
   for (const float time : {0.0f, 0.5f, 1.0f}) {
-    const auto s = light.sample_li(p, {0.3f, 0.6f}, LightSampling::kComplete, time);
+    const auto s = light.sample_li(p, {0.3f, 0.6f}, {time});
     ASSERT_TRUE(s);
     const Point3d at = to_double(s->on_light.p) + scene->origin;
     EXPECT_NEAR(length(at - Point3d{2 * static_cast<double>(time), 0, 5}), 0.5, 1e-5);
@@ -94,7 +94,7 @@ TEST(Motion, LightsMoveWithTheirInstances) {
     const SurfaceHit seen = scene->surface(hit);
     EXPECT_EQ(seen.light, small);
     EXPECT_LT(length(seen.point.p - s->on_light.p), 1e-4f);
-    EXPECT_NEAR(light.pdf_li(p, s->wi, &seen.point, LightSampling::kComplete, time) / s->pdf, 1.0f, 1e-3f);
+    EXPECT_NEAR(light.pdf_li(p, s->wi, &seen.point, {time}) / s->pdf, 1.0f, 1e-3f);
   }
 }
 

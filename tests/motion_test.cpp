@@ -267,7 +267,7 @@ void expect_tight(const Geometry& g, Point3 start, int bounces, const char* what
     Vec3 w;
     do w = Frame::from_z(s.ng).to_world(sample_hemisphere_cosine({h.next_float(), h.next_float()}));
     while (!(dot(w, s.ng) > 0.0f));
-    ray = spawn_ray(s, w, ray.time);
+    ray = spawn_ray(s, w, ray);
   }
   EXPECT_EQ(escaped, 0) << what;
   EXPECT_EQ(wrong_side, 0) << what;

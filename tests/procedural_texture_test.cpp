@@ -138,7 +138,7 @@ TEST(Noise, WildPlacesGiveNumbers) {
       for (const float y : wild)
         for (const float z : wild) {
           TexCoord at{{x, y}, {x, y, z}, {0, 0, 1}, {x, z, y}, {z, z, x}, {x, z}, {y, x}};
-          EXPECT_TRUE(is_finite(t.table.eval(s, at))) << s.texture << ' ' << x << ' ' << y << ' ' << z;
+          EXPECT_TRUE(is_finite(t.table.eval(s, at, {}))) << s.texture << ' ' << x << ' ' << y << ' ' << z;
         }
 }
 
@@ -148,7 +148,7 @@ TEST(Noise, OctavesFadeWithTheFootprint) {
   Textures t;
   const SpectrumSource fbm = t.add("f", use_of("fbm"), true), wrinkled = t.add("w", use_of("wrinkled"), true);
   const auto with = [&](const SpectrumSource& s, Point3 p, float size) {
-    return double(t.table.eval(s, {{}, p, {}, {size, 0, 0}, {0, 0.5f * size, 0}})[0]);
+    return double(t.table.eval(s, {{}, p, {}, {size, 0, 0}, {0, 0.5f * size, 0}}, {})[0]);
   };
   double square = 0, square_plain = 0, mean_wrinkled = 0;
   for (const Point3& p : points(300, 20)) {
@@ -229,7 +229,7 @@ TEST(Mixes, ByAmountAndByDirection) {
                                  false, Transform::rotate(-90, {0, 0, 1}));
   ASSERT_FALSE(t.diagnostics.has_errors()) << t.diagnostics.format_all();
   for (const float sign : {1.0f, -1.0f}) {
-    const Spectrum v = t.table.eval(d, {{}, {}, {0.6f * sign, 0.8f, 0}});
+    const Spectrum v = t.table.eval(d, {{}, {}, {0.6f * sign, 0.8f, 0}}, {});
     EXPECT_NEAR(v[0], 0.6, 1e-6);
     EXPECT_NEAR(v[2], 0.4, 1e-6);
   }
@@ -325,7 +325,7 @@ TEST(Checkerboard, FilteredOverTheFootprint) {
         if (std::fmod(cells, 2.0) == 0.0) sum += (1 - std::abs(x)) * (1 - std::abs(y));
       }
     const double mean = sum * 4 / (kCells * kCells);
-    EXPECT_NEAR(t.table.eval(board, {{u, v}, {}, {}, {}, {}, {du, 0}, {0.3f * du, dv}})[0], mean, 0.012)
+    EXPECT_NEAR(t.table.eval(board, {{u, v}, {}, {}, {}, {}, {du, 0}, {0.3f * du, dv}}, {})[0], mean, 0.012)
         << u << ' ' << v << ' ' << du << ' ' << dv;
   }
 }

@@ -50,7 +50,7 @@ TEST(SurfaceDetail, BumpsTiltThePlaneThatTheyMake) {
         p[i] = mesh.positions[i] + s.ns * height;
       }
       const Vec3 expected = normalize(face_forward(cross(p[1] - p[0], p[2] - p[0]), s.ng));
-      expect_near(detail.frame(s, {s.uv}, table).z, expected, 2e-3f);
+      expect_near(detail.frame(s, {s.uv}, table, {}).z, expected, 2e-3f);
     }
   }
 }
@@ -60,7 +60,7 @@ TEST(SurfaceDetail, ConstantHeightChangesNothing) {
   const SurfacePoint s = triangle_point(skewed(false), 0, 0.3f, 0.3f);
   SurfaceDetail detail;
   detail.displacement = {3.0f, -1};
-  expect_near(detail.frame(s, {s.uv}, table).z, s.ns, 1e-6f);
+  expect_near(detail.frame(s, {s.uv}, table, {}).z, s.ns, 1e-6f);
 }
 
 TEST(SurfaceDetail, NormalMapsAreInTheFrameOfU) {
@@ -73,7 +73,7 @@ TEST(SurfaceDetail, NormalMapsAreInTheFrameOfU) {
   detail.normal_map = 0;
   const SurfacePoint s = triangle_point(skewed(false), 0, 0.3f, 0.3f);
   const Frame plain = Frame::from_z_tangent(s.ns, s.dpdu);
-  expect_near(detail.frame(s, {s.uv}, table).z, normalize(plain.x * 0.6f + s.ns * 0.8f), 1e-5f);
+  expect_near(detail.frame(s, {s.uv}, table, {}).z, normalize(plain.x * 0.6f + s.ns * 0.8f), 1e-5f);
 }
 
 }  // namespace

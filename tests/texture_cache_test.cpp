@@ -101,7 +101,7 @@ TEST(TextureCache, NoLookupCanTell) {
     const TexCoord at{
         {4 * rng.next_float() - 2, 4 * rng.next_float() - 2}, {}, {}, {}, {}, {wide(), wide()}, {wide(), -wide()}};
     for (size_t k = 0; k < a.size(); ++k) {
-      const Spectrum x = in_memory.table.eval(a[k], at), y = in_tiles.table.eval(b[k], at);
+      const Spectrum x = in_memory.table.eval(a[k], at, {}), y = in_tiles.table.eval(b[k], at, {});
       for (int c = 0; c < 3; ++c) ASSERT_EQ(x[c], y[c]) << k;
     }
   }

@@ -19,8 +19,8 @@ class Textures {
     return {{}, static_cast<int32_t>(table.textures.size()) - 1};
   }
   void recentre(Vec3d origin) { builder_.recentre(origin); }
-  Spectrum at(const SpectrumSource& source, float u, float v) const { return table.eval(source, {{u, v}}); }
-  Spectrum at(const SpectrumSource& source, Point3 p) const { return table.eval(source, {{}, p}); }
+  Spectrum at(const SpectrumSource& source, float u, float v) const { return table.eval(source, {{u, v}}, {}); }
+  Spectrum at(const SpectrumSource& source, Point3 p) const { return table.eval(source, {{}, p}, {}); }
 
   TempFolder folder;
   TextureMemory memory;

@@ -66,7 +66,7 @@ TEST(Textures, NestedScalesAndFloatTextures) {
   EXPECT_EQ(t.at(s, 0, 0)[2], 1.0f);
   EXPECT_EQ(t.at(board, 0.5f, 0.5f)[2], 2.0f);
   EXPECT_EQ(t.at(board, 1.5f, 0.5f)[1], 0.5f);
-  EXPECT_EQ(t.table.eval(FloatSource{0, 1}, {}), 0.25f);
+  EXPECT_EQ(t.table.eval(FloatSource{0, 1}, {}, {}), 0.25f);
 }
 
 TEST(ImageMap, LowerLeftCornerIsTheOrigin) {

@@ -84,10 +84,10 @@ namespace {
 
 constexpr uint64_t kPathsPerItem = 4096;
 
-// Whether nothing is between the point and the camera.
-bool sees(const Scene& scene, const SurfacePoint& point, const CameraConnection& c, float time, RayCounts& rays) {
+// Whether nothing is between the point and the camera. `ray`: that of the path at the point.
+bool sees(const Scene& scene, const SurfacePoint& point, const CameraConnection& c, const Ray& ray, RayCounts& rays) {
   ++rays.shadow;
-  return !scene.occluded(shadow_ray(point, point.p + c.wi * c.distance, time));
+  return !scene.occluded(shadow_ray(point, point.p + c.wi * c.distance, ray));
 }
 
 }  // namespace
@@ -116,32 +116,30 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
   const auto join = [&](const SurfacePoint& point, float time) {
     return scene_.camera.sample_wi(point.p, sampler.get_2d(), time, camera_splat_.margin());
   };
-  const auto splat = [&](const SurfacePoint& point, const CameraConnection& c, float time, int depth,
+  const auto splat = [&](const SurfacePoint& point, const CameraConnection& c, const Ray& ray, int depth,
                          const Spectrum& light) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
-    if (!is_black(light) && sees(scene_, point, c, time, rays))
+    if (!is_black(light) && sees(scene_, point, c, ray, rays))
       camera_splat_.add(sink, c.importance.film, depth, light, number);
   };
 
-  float time = 0;
   // The light itself, as the camera sees it.
   const auto at_light = [&](const LightPathStart& s) {
-    time = s.time;
     if (!s.has_surface) return;
     const SurfacePoint& point = s.emission.on_light;
-    const auto c = join(point, time);
+    const auto c = join(point, s.context.time);
     if (!c) return;
-    const Spectrum radiance = s.light.emitted(&point, c->wi, {}, time);
+    const Spectrum radiance = s.light.emitted(&point, c->wi, s.context);
     const float geometry = std::abs(dot(point.ng, c->wi)) * c->weight;
-    splat(point, *c, time, 0, radiance * (geometry * s.alpha / (s.probability * s.emission.pdf_position)));
+    splat(point, *c, s.emission.ray, 0, radiance * (geometry * s.alpha / (s.probability * s.emission.pdf_position)));
   };
   // Light that goes straight to the camera.
   const auto at_vertex = [&](const LightPathVertex& v) {
     if (v.scatter.bsdf().is_delta_only()) return true;
     sampler.set_dimension(v.dimension);
-    if (const auto c = join(v.point, time))
-      splat(v.point, *c, time, v.depth,
-            v.flux * v.scatter.eval_cos(v.wo, c->wi, TransportMode::kImportance, v.rng) * c->weight);
+    if (const auto c = join(v.point, v.ray.time))
+      splat(v.point, *c, v.ray, v.depth,
+            v.flux * v.scatter.eval_cos(v.wo(), c->wi, TransportMode::kImportance, v.rng) * c->weight);
     return true;
   };
   follow_light_path(scene_, uniform_ ? *uniform_ : scene_.light_sampler,

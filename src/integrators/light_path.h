@@ -27,7 +27,7 @@ struct LightPathStart {
   float alpha;        // share of its surface that is there
   bool has_surface;   // `emission.on_light` is a point that rays can meet
   EmissionSample emission;
-  float time;
+  ShadingContext context;  // of the whole path
 
   Spectrum flux() const { return emission.weight() * (alpha / probability); }
 };
@@ -36,10 +36,12 @@ struct LightPathVertex {
   int depth;  // from 1: scattering events with that of the vertex
   const SurfacePoint& point;
   const SurfaceScatter& scatter;
-  Vec3 wo;        // towards the light
-  Spectrum flux;  // that arrives, W, for each path
+  const Ray& ray;  // that arrived
+  Spectrum flux;   // that arrives, W, for each path
   HashStream& rng;
   uint32_t dimension;  // of the sampler: one that the caller may use
+
+  Vec3 wo() const { return -ray.d; }  // towards the light
 };
 
 // Sampler dimensions: time, light, place, direction and one for the caller's use of the light's own point, then a fixed
@@ -50,10 +52,10 @@ inline constexpr uint32_t kLightPathDimensions = 5, kLightVertexDimensions = 4;
 // backwards, from surface to surface.
 inline bool find_first(const Scene& scene, const Ray& ray, Hit& first, RayCounts& rays) {
   bool found = false;
-  Ray back{ray.o, -ray.d, kInfinity, ray.time};
+  Ray back{ray.o, -ray.d, kInfinity, ray.time, ray.medium};
   for (Hit hit; ++rays.indirect, scene.intersect(back, hit); found = true) {
     first = hit;
-    back = spawn_ray(scene.surface(hit).point, back.d, ray.time);
+    back = spawn_ray(scene.surface(hit).point, back.d, back);
   }
   return found;
 }
@@ -63,16 +65,16 @@ inline bool find_first(const Scene& scene, const Ray& ray, Hit& first, RayCounts
 template <class AtLight, class AtVertex>
 void follow_light_path(const Scene& scene, const LightSampler& lights, const LightPathSettings& settings,
                        Sampler& sampler, RayCounts& rays, AtLight&& at_light, AtVertex&& at_vertex) {
-  const float time = scene.camera.ray_time(scene.moves ? sampler.get_1d() : 0.0f);
+  const ShadingContext context{scene.camera.ray_time(scene.moves ? sampler.get_1d() : 0.0f)};
   const auto choice = lights.sample(sampler.get_choice());
   if (!choice) return;
   const Light& light = scene.lights[choice->light];
   const Vec2 u_position = sampler.get_2d(), u_direction = sampler.get_2d();
-  const auto emitted = light.sample_le(u_position, u_direction, scene.emission_disks, time);
+  const auto emitted = light.sample_le(u_position, u_direction, scene.emission_disks, context);
   if (!emitted) return;
   const bool has_surface = !light.is_infinite() && !light.is_delta();
-  const float alpha = has_surface ? scene.light_alpha(choice->light, emitted->on_light) : 1.0f;
-  const LightPathStart start{light, choice->light, choice->probability, alpha, has_surface, *emitted, time};
+  const float alpha = has_surface ? scene.light_alpha(choice->light, emitted->on_light, context) : 1.0f;
+  const LightPathStart start{light, choice->light, choice->probability, alpha, has_surface, *emitted, context};
   at_light(start);
 
   Spectrum flux = start.flux();
@@ -86,19 +88,18 @@ void follow_light_path(const Scene& scene, const LightSampler& lights, const Lig
     const SurfaceHit surface = scene.surface(hit);
     const uint32_t dimension = kLightPathDimensions + static_cast<uint32_t>(depth - 1) * kLightVertexDimensions;
     HashStream rng(sampler.key(dimension));
-    const Shading shading = scene.shade(surface, rng);
+    const Shading shading = scene.shade(surface, context, rng);
     const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
-    const Vec3 wo = -ray.d;
-    if (!at_vertex(LightPathVertex{depth, surface.point, scatter, wo, flux, rng, dimension})) return;
+    if (!at_vertex(LightPathVertex{depth, surface.point, scatter, ray, flux, rng, dimension})) return;
     if (depth == settings.max_depth) return;
 
     sampler.set_dimension(dimension + 1);
-    const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kImportance, rng);
+    const auto s = scatter.sample(-ray.d, sampler.get_3d(), TransportMode::kImportance, rng);
     if (!s) return;
     if (settings.from_camera && depth == 1 && light.is_delta() && s->is_delta()) return;
     flux *= s->weight;
     throughput *= max_value(s->weight);
-    ray = spawn_ray(surface.point, s->wi, time);
+    ray = spawn_ray(surface.point, s->wi, ray);
 
     // Russian roulette on the share of the flux that is left.
     if (depth >= settings.roulette_depth && throughput < 1.0f) {

@@ -22,8 +22,10 @@ struct NextEvent {
 struct NextEventVertex {
   const SurfacePoint& point;
   const SurfaceScatter& scatter;
-  Vec3 wo;
-  float time;
+  const Ray& ray;  // that arrived
+  const ShadingContext& context;
+
+  Vec3 wo() const { return -ray.d; }
 };
 
 // Returns the radiance that leaves the vertex along wo, weighted. Draws the next two dimensions of the sampler: for the
@@ -37,21 +39,21 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
   if (!choice) return Spectrum();
   recorder.light(choice->light, choice->probability);
   const Light& light = scene.lights[choice->light];
-  const auto s = light.sample_li(v.point.p, u_point, how.sampling(), v.time);
+  const auto s = light.sample_li(v.point.p, u_point, v.context, how.sampling());
   if (!s) return Spectrum();
-  const Spectrum f = v.scatter.eval_cos(v.wo, s->wi, TransportMode::kRadiance, rng);
+  const Spectrum f = v.scatter.eval_cos(v.wo(), s->wi, TransportMode::kRadiance, rng);
   recorder.light_sample(*s, f);
   if (is_black(f)) return Spectrum();
   ++rays.shadow;
   const bool infinite = light.is_infinite();
-  if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, v.time) : shadow_ray(v.point, s->on_light, v.time)))
+  if (scene.occluded(infinite ? spawn_ray(v.point, s->wi, v.ray) : shadow_ray(v.point, s->on_light, v.ray)))
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
   const bool both = how.mis && !s->is_delta;
-  const float scatter_pdf = both ? v.scatter.pdf(v.wo, s->wi, TransportMode::kRadiance) : 0.0f;
+  const float scatter_pdf = both ? v.scatter.pdf(v.wo(), s->wi, TransportMode::kRadiance) : 0.0f;
   const float weight = both ? mis_weight(how.heuristic, pdf, scatter_pdf) : 1.0f;
   recorder.light_visible(scatter_pdf, weight);
-  return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light));
+  return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light, v.context));
 }
 
 }  // namespace etd

@@ -163,6 +163,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   PixelSample out;
   const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
   Ray ray = start.ray;
+  const ShadingContext context{ray.time};
   recorder.camera(start.sample, ray);
 
   const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
@@ -182,12 +183,12 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   };
   // Emission that scattering found, weighted: light sampling could have found it with density pdf_light.
   const auto add_emission = [&](int depth, uint32_t light, const SurfacePoint* on_light) {
-    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, ray.o, ray.time);
+    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, context, ray.o);
     if (is_black(radiance)) return;
     float pdf_light = 0.0f, weight = 1.0f;
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
     if (!only_scattering && mis) {
-      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, how.sampling(), ray.time);
+      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, how.sampling());
       pdf_light = lights.probability(light) * pdf;
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
@@ -216,7 +217,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
-    Shading shading = scene_.shade(surface, rng);
+    Shading shading = scene_.shade(surface, context, rng);
     if (settings_.bent_normals) shading.frame = bend_to_viewer(shading.frame, point.ng, wo);
     const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
@@ -230,7 +231,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      const Spectrum light = next_event(scene_, how, {point, scatter, wo, ray.time}, sampler, rng, out.rays, recorder);
+      const Spectrum light =
+          next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder);
       add(LightFoundBy::kLightSampling, depth + 1, beta * light);
     }
 
@@ -251,7 +253,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     scatter_pdf = s->pdf;
     only_scattering = s->is_delta();
     last = point;
-    ray = spawn_ray(point, s->wi, ray.time);
+    ray = spawn_ray(point, s->wi, ray);
 
     // Russian roulette on the throughput, as it is without the compression of radiance in glass.
     const float survival = max_value(beta) * eta_scale;

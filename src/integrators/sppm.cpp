@@ -204,13 +204,13 @@ void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) 
     Sampler sampler(context_.sampler, context_.seed);
     sampler.start(kPhotonStream + (number >> 32), i.replicate, static_cast<uint32_t>(number));
     const auto at_vertex = [&](const LightPathVertex& v) {
-      const float cosine = std::abs(dot(v.wo, v.point.ng));
+      const float cosine = std::abs(dot(v.wo(), v.point.ng));
       if (v.scatter.bsdf().is_delta_only() || (v.depth == 1 && !settings_.direct_photons) || !(cosine > 0.0f))
         return true;
       const Spectrum flux = v.flux * (1.0f / cosine);
       if (is_finite(flux) && !is_black(flux))
         grid_.add(item,
-                  {v.point.p, Photon::encode(v.wo), static_cast<uint16_t>(v.depth - 1), {flux[0], flux[1], flux[2]}});
+                  {v.point.p, Photon::encode(v.wo()), static_cast<uint16_t>(v.depth - 1), {flux[0], flux[1], flux[2]}});
       return true;
     };
     follow_light_path(
@@ -236,6 +236,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
   PixelSample out;
   const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
   Ray ray = start.ray;
+  const ShadingContext context{ray.time};
   const NextEvent how{lights()};
   NoRecorder recorder;
   PathFeatures features;
@@ -251,18 +252,18 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
       for (const uint32_t light : scene_.infinite_lights)
-        add(depth, scene_.lights[light].emitted(nullptr, -ray.d, ray.o, ray.time));
+        add(depth, scene_.lights[light].emitted(nullptr, -ray.d, context, ray.o));
       break;
     }
     const SurfaceHit surface = scene_.surface(hit);
     const SurfacePoint& point = surface.point;
     const Vec3 wo = -ray.d;
     features.meet(scene_, depth, hit, out);
-    if (surface.light != kNoId) add(depth, scene_.lights[surface.light].emitted(&point, wo, ray.o, ray.time));
+    if (surface.light != kNoId) add(depth, scene_.lights[surface.light].emitted(&point, wo, context, ray.o));
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
-    const Shading shading = scene_.shade(surface, rng);
+    const Shading shading = scene_.shade(surface, context, rng);
     const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
     features.shade(point, scatter, wo, out);
@@ -271,7 +272,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     if (!bsdf.is_delta_only()) {
       if (!settings_.direct_photons) {
         sampler.set_dimension(dimension + kLightChoice);
-        add(depth + 1, next_event(scene_, how, {point, scatter, wo, ray.time}, sampler, rng, out.rays, recorder));
+        add(depth + 1, next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder));
       }
       Spectrum direct;
       const Spectrum indirect = photon_light(point, scatter, wo, depth, rng, direct);
@@ -286,7 +287,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     if (!s || !s->is_delta()) break;
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
-    ray = spawn_ray(point, s->wi, ray.time);
+    ray = spawn_ray(point, s->wi, ray);
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {
       sampler.set_dimension(dimension + kRoulette);

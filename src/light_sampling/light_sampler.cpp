@@ -14,7 +14,7 @@ double sum_of(const std::vector<double>& weights) { return std::accumulate(weigh
 }  // namespace
 
 double LightSampler::seen(const Light& light, Point3 viewer) {
-  const auto s = light.sample_li(viewer, {0.5f, 0.5f}, LightSampling::kComplete, 0.5f);
+  const auto s = light.sample_li(viewer, {0.5f, 0.5f}, {.time = 0.5f});
   return s ? or_nothing(static_cast<double>(luminance(s->radiance)) / static_cast<double>(s->pdf)) : 0.0;
 }
 

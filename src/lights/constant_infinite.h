@@ -18,11 +18,13 @@ struct ConstantInfiniteLight {
 
   bool is_infinite() const { return true; }
   bool is_delta() const { return false; }
-  std::optional<LightSample> sample_li(Point3, Vec2 u, LightSampling) const {
+  std::optional<LightSample> sample_li(Point3, Vec2 u, const ShadingContext&, LightSampling) const {
     return LightSample{sample_sphere_uniform(u), radiance, pdf_sphere_uniform(), {}};
   }
-  float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return pdf_sphere_uniform(); }
-  Spectrum emitted(const SurfacePoint*, Vec3) const { return radiance; }
+  float pdf_li(Point3, Vec3, const SurfacePoint*, const ShadingContext&, LightSampling) const {
+    return pdf_sphere_uniform();
+  }
+  Spectrum emitted(const SurfacePoint*, Vec3, const ShadingContext&, Point3) const { return radiance; }
   Spectrum power() const { return radiance * (4.0f * sqr(kPi)); }
 };
 

@@ -55,11 +55,11 @@ struct DiffuseAreaLight {
   bool is_infinite() const { return false; }
   bool is_delta() const { return emission.invisible; }
 
-  Spectrum emitted(const SurfacePoint* s, Vec3 w) const {
+  Spectrum emitted(const SurfacePoint* s, Vec3 w, const ShadingContext&, Point3) const {
     return emission.invisible ? Spectrum() : emission.towards(*s, w);
   }
 
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling) const {
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, const ShadingContext&, LightSampling) const {
     LightSample s;
     float pdf_area = 0;
     const auto seen = surface.seen_from(p);
@@ -76,8 +76,8 @@ struct DiffuseAreaLight {
     return s;
   }
 
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s, LightSampling) const {
-    if (is_black(emitted(s, -wi))) return 0.0f;
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s, const ShadingContext& context, LightSampling) const {
+    if (is_black(emitted(s, -wi, context, p))) return 0.0f;
     if (const auto seen = surface.seen_from(p)) return static_cast<float>(1.0 / seen->solid_angle());
     const Vec3 d = s->p - p;
     const float pdf = to_solid_angle(surface.pdf_area(*s), dot(d, d), dot(s->ng, wi));
@@ -86,7 +86,8 @@ struct DiffuseAreaLight {
 
   // Uniform over the area in the light's own space, and as the cosine around the normal in the world, on either side
   // with the same probability if both emit. `at`: where that space is, null when it is the world.
-  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const Placement* at) const {
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const ShadingContext&,
+                                          const Placement* at) const {
     EmissionSample s;
     s.on_light = surface.sample(u_position, s.pdf_position);
     if (at) {
@@ -106,7 +107,7 @@ struct DiffuseAreaLight {
     return s;
   }
 
-  EmissionDensity pdf_le(const SurfacePoint* s, Vec3 w, Point3, const Placement* at) const {
+  EmissionDensity pdf_le(const SurfacePoint* s, Vec3 w, const ShadingContext&, Point3, const Placement* at) const {
     const float direction = pdf_emitted(*s, w);
     if (!at) return {surface.pdf_area(*s), direction};
     const SurfacePoint own = to_object(*s, *at);

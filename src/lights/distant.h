@@ -43,12 +43,12 @@ struct DistantLight {
 
   bool is_infinite() const { return true; }
   bool is_delta() const { return true; }
-  std::optional<LightSample> sample_li(Point3, Vec2, LightSampling) const {
+  std::optional<LightSample> sample_li(Point3, Vec2, const ShadingContext&, LightSampling) const {
     if (is_black(irradiance)) return {};
     return LightSample{direction, irradiance, 1.0f, {}, true};
   }
-  float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
-  Spectrum emitted(const SurfacePoint*, Vec3) const { return Spectrum(); }
+  float pdf_li(Point3, Vec3, const SurfacePoint*, const ShadingContext&, LightSampling) const { return 0.0f; }
+  Spectrum emitted(const SurfacePoint*, Vec3, const ShadingContext&, Point3) const { return Spectrum(); }
   Spectrum power() const { return irradiance * kPi; }
 };
 

@@ -36,7 +36,7 @@ struct GoniometricIntensity {
     return PointLight<GoniometricIntensity>{light_position(p, context), g};
   }
 
-  Spectrum intensity(Vec3 w) const { return value * mean_value(map->value(axes.to_local(w))); }
+  Spectrum intensity(Vec3 w, const ShadingContext&) const { return value * mean_value(map->value(axes.to_local(w))); }
   std::optional<Vec3> sample(Vec2 u) const {
     const std::optional<Vec3> w = map->sample(u, LightSampling::kComplete);
     return w ? std::optional(normalize(axes.to_world(*w))) : std::nullopt;

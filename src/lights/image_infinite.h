@@ -23,7 +23,7 @@ struct ImageInfiniteLight {
 
   bool is_infinite() const { return true; }
   bool is_delta() const { return false; }
-  std::optional<LightSample> sample_li(Point3, Vec2 u, LightSampling sampling) const {
+  std::optional<LightSample> sample_li(Point3, Vec2 u, const ShadingContext&, LightSampling sampling) const {
     const std::optional<Vec3> w = map->sample(u, sampling);
     if (!w) return {};
     // Value and density are looked up again, at the direction as it was rounded: whoever meets the same direction
@@ -36,10 +36,12 @@ struct ImageInfiniteLight {
     if (!(s.pdf > 0.0f) || is_black(s.radiance)) return {};
     return s;
   }
-  float pdf_li(Point3, Vec3 wi, const SurfacePoint*, LightSampling sampling) const {
+  float pdf_li(Point3, Vec3 wi, const SurfacePoint*, const ShadingContext&, LightSampling sampling) const {
     return map->pdf(axes.to_local(wi), sampling);
   }
-  Spectrum emitted(const SurfacePoint*, Vec3 w) const { return map->value(axes.to_local(-w)) * scale; }
+  Spectrum emitted(const SurfacePoint*, Vec3 w, const ShadingContext&, Point3) const {
+    return map->value(axes.to_local(-w)) * scale;
+  }
   Spectrum power() const { return map->integral() * (kPi * scale); }
 };
 

@@ -69,59 +69,58 @@ bool Light::is_delta() const {
   return dispatch<bool, Lights>(storage_, [](const auto& l) { return l.is_delta(); });
 }
 
-std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u, LightSampling sampling, float time) const {
-  return motion_ ? sample_moving(p, u, sampling, time) : sample_still(p, u, sampling);
+std::optional<LightSample> Light::sample_li(Point3 p, Vec2 u, const ShadingContext& context,
+                                            LightSampling sampling) const {
+  return motion_ ? sample_moving(p, u, context, sampling) : sample_still(p, u, context, sampling);
 }
 
-float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const {
-  return motion_ ? pdf_moving(p, wi, on_light, sampling, time) : pdf_still(p, wi, on_light, sampling);
+float Light::pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+                    LightSampling sampling) const {
+  return motion_ ? pdf_moving(p, wi, on_light, context, sampling) : pdf_still(p, wi, on_light, context, sampling);
 }
 
-std::optional<LightSample> Light::sample_still(Point3 p, Vec2 u, LightSampling sampling) const {
-  return dispatch<std::optional<LightSample>, Lights>(storage_,
-                                                      [&](const auto& l) { return l.sample_li(p, u, sampling); });
+std::optional<LightSample> Light::sample_still(Point3 p, Vec2 u, const ShadingContext& context,
+                                               LightSampling sampling) const {
+  return dispatch<std::optional<LightSample>, Lights>(
+      storage_, [&](const auto& l) { return l.sample_li(p, u, context, sampling); });
 }
 
-float Light::pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const {
-  return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, sampling); });
+float Light::pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+                       LightSampling sampling) const {
+  return dispatch<float, Lights>(storage_, [&](const auto& l) { return l.pdf_li(p, wi, on_light, context, sampling); });
 }
 
-Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from, float time) const {
+Spectrum Light::emitted(const SurfacePoint* on_light, Vec3 w, const ShadingContext& context, Point3 seen_from) const {
   // What a surface emits depends on nothing that changes when both it and w move.
-  if (motion_ && !on_light) w = normalize(placement_at(*motion_, time).to_object.vector(w));
-  return dispatch<Spectrum, Lights>(storage_, [&](const auto& l) {
-    if constexpr (std::is_same_v<decltype(l), const PortalInfiniteLight&>)
-      return l.emitted(on_light, w, seen_from);
-    else
-      return l.emitted(on_light, w);
-  });
+  if (motion_ && !on_light) w = normalize(placement_at(*motion_, context.time).to_object.vector(w));
+  return dispatch<Spectrum, Lights>(storage_,
+                                    [&](const auto& l) { return l.emitted(on_light, w, context, seen_from); });
 }
 
 std::optional<EmissionSample> Light::sample_le(Vec2 u_position, Vec2 u_direction, const EmissionDisks& disks,
-                                               float time) const {
+                                               const ShadingContext& context) const {
   using Result = std::optional<EmissionSample>;
   Result sample = dispatch<Result, Lights>(storage_, [&]([[maybe_unused]] const auto& l) -> Result {
     if constexpr (kSameFromEverywhere<std::decay_t<decltype(l)>>) {
-      const auto s = sample_li({}, u_direction, LightSampling::kComplete, time);
+      const auto s = sample_li({}, u_direction, context);
       return s ? Result(through_disk(*s, u_position, disks)) : std::nullopt;
     } else {
-      const auto at = placement(motion_, time);
-      return l.sample_le(u_position, u_direction, at ? &*at : nullptr);
+      const auto at = placement(motion_, context.time);
+      return l.sample_le(u_position, u_direction, context, at ? &*at : nullptr);
     }
   });
-  if (sample) sample->ray.time = time;
+  if (sample) sample->ray.time = context.time;
   return sample;
 }
 
-EmissionDensity Light::pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks, Point3 seen_from,
-                              float time) const {
+EmissionDensity Light::pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks,
+                              const ShadingContext& context, Point3 seen_from) const {
   return dispatch<EmissionDensity, Lights>(storage_, [&](const auto& l) -> EmissionDensity {
     if constexpr (kSameFromEverywhere<std::decay_t<decltype(l)>>) {
-      return {disks.pdf(seen_from, w),
-              l.is_delta() ? 1.0f : pdf_li(seen_from, -w, nullptr, LightSampling::kComplete, time)};
+      return {disks.pdf(seen_from, w), l.is_delta() ? 1.0f : pdf_li(seen_from, -w, nullptr, context)};
     } else {
-      const auto at = placement(motion_, time);
-      return l.pdf_le(on_light, w, seen_from, at ? &*at : nullptr);
+      const auto at = placement(motion_, context.time);
+      return l.pdf_le(on_light, w, context, seen_from, at ? &*at : nullptr);
     }
   });
 }

@@ -14,6 +14,7 @@
 #include "lights/emission_disks.h"
 #include "params/declaration.h"
 #include "shapes/surface_point.h"
+#include "spectrum/shading_context.h"
 #include "spectrum/spectrum.h"
 
 namespace etd {
@@ -66,25 +67,24 @@ class Light {
   bool is_infinite() const;
   bool is_delta() const;
   // Nothing when the sample carries no light (wrong side, degenerate geometry): that is an estimate of 0.
-  // Here and below, `time` is that of the ray: where a light that moves is.
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling sampling = LightSampling::kComplete,
-                                       float time = 0) const;
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, const ShadingContext& context,
+                                       LightSampling sampling = LightSampling::kComplete) const;
   // Solid-angle density with which sample_li makes wi, 0 where it makes none and for delta lights; `on_light` is the
   // point met there, null for infinite lights.
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling = LightSampling::kComplete,
-               float time = 0) const;
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+               LightSampling sampling = LightSampling::kComplete) const;
   // Radiance that leaves on_light along w; of an infinite light, null and -w: the radiance seen in direction w from the
   // point `seen_from`, on which that of a light behind a portal depends. 0 for delta lights.
-  Spectrum emitted(const SurfacePoint* on_light, Vec3 w, Point3 seen_from = {}, float time = 0) const;
+  Spectrum emitted(const SurfacePoint* on_light, Vec3 w, const ShadingContext& context, Point3 seen_from = {}) const;
   // A ray of the light, which the two pairs of numbers choose; `disks` is used by infinite lights alone. Nothing when
   // nothing is emitted along it: that is an estimate of 0.
   std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const EmissionDisks& disks,
-                                          float time = 0) const;
+                                          const ShadingContext& context) const;
   // The densities with which sample_le makes a ray along which the light emits: from on_light along w or, where that is
   // null, one of an infinite light that passes the point `seen_from` of the scene. What is 1 in samples of points and
   // single directions is 1 here.
-  EmissionDensity pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks, Point3 seen_from = {},
-                         float time = 0) const;
+  EmissionDensity pdf_le(const SurfacePoint* on_light, Vec3 w, const EmissionDisks& disks,
+                         const ShadingContext& context, Point3 seen_from = {}) const;
   // Emitted power of finite lights, W (per lane), its mean over time where they grow, or what comes in through a
   // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,
   // over all directions.
@@ -95,10 +95,14 @@ class Light {
 
  private:
   // The first two work in the light's own space.
-  std::optional<LightSample> sample_still(Point3 p, Vec2 u, LightSampling sampling) const;
-  float pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling) const;
-  std::optional<LightSample> sample_moving(Point3 p, Vec2 u, LightSampling sampling, float time) const;
-  float pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const;
+  std::optional<LightSample> sample_still(Point3 p, Vec2 u, const ShadingContext& context,
+                                          LightSampling sampling) const;
+  float pdf_still(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+                  LightSampling sampling) const;
+  std::optional<LightSample> sample_moving(Point3 p, Vec2 u, const ShadingContext& context,
+                                           LightSampling sampling) const;
+  float pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+                   LightSampling sampling) const;
 
   TaggedStorage<96> storage_;
   const AnimatedTransform* motion_ = nullptr;

@@ -22,16 +22,17 @@ Light Light::moving(const AnimatedTransform& motion) const {
   return light;
 }
 
-std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, LightSampling sampling, float time) const {
-  const Placement at = placement_at(*motion_, time);
-  auto s = sample_still(at.to_object.point(p), u, sampling);
+std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, const ShadingContext& context,
+                                                LightSampling sampling) const {
+  const Placement at = placement_at(*motion_, context.time);
+  auto s = sample_still(at.to_object.point(p), u, context, sampling);
   if (!s) return {};
   if (is_infinite()) {
     s->wi = normalize(at.to_world.vector(s->wi));
     if (s->is_delta) return s;
     // Looked up again for the direction as it was rounded, as rays that meet it otherwise do.
-    s->radiance = emitted(nullptr, -s->wi, p, time);
-    s->pdf = pdf_moving(p, s->wi, nullptr, sampling, time);
+    s->radiance = emitted(nullptr, -s->wi, context, p);
+    s->pdf = pdf_moving(p, s->wi, nullptr, context, sampling);
   } else {
     s->on_light = to_world(s->on_light, at);
     const Vec3 d = s->on_light.p - p;
@@ -40,17 +41,18 @@ std::optional<LightSample> Light::sample_moving(Point3 p, Vec2 u, LightSampling 
     s->wi = d * (1.0f / std::sqrt(d2));
     s->pdf *= solid_angle_stretch(at, s->wi);
     if (s->is_delta) return s;
-    s->radiance = emitted(&s->on_light, -s->wi, p, time);
+    s->radiance = emitted(&s->on_light, -s->wi, context, p);
   }
   if (is_black(s->radiance) || !(s->pdf > 0.0f) || !std::isfinite(s->pdf)) return {};
   return s;
 }
 
-float Light::pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, LightSampling sampling, float time) const {
-  const Placement at = placement_at(*motion_, time);
+float Light::pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
+                        LightSampling sampling) const {
+  const Placement at = placement_at(*motion_, context.time);
   const Vec3 w = normalize(at.to_object.vector(wi));
   const SurfacePoint seen = on_light ? to_object(*on_light, at) : SurfacePoint{};
-  const float pdf = pdf_still(at.to_object.point(p), w, on_light ? &seen : nullptr, sampling);
+  const float pdf = pdf_still(at.to_object.point(p), w, on_light ? &seen : nullptr, context, sampling);
   return pdf * solid_angle_stretch(at, wi);
 }
 

@@ -23,7 +23,7 @@ struct IsotropicIntensity {
                                           {value * emission_scale(p, "power", value * (4.0f * kPi))}};
   }
 
-  Spectrum intensity(Vec3) const { return value; }
+  Spectrum intensity(Vec3, const ShadingContext&) const { return value; }
   std::optional<Vec3> sample(Vec2 u) const { return sample_sphere_uniform(u); }
   float pdf(Vec3) const { return pdf_sphere_uniform(); }
   Spectrum power() const { return value * (4.0f * kPi); }

@@ -8,8 +8,9 @@
 
 namespace etd {
 
-// Intensity: Spectrum intensity(Vec3 w) in W/sr along the unit direction w in the world, Spectrum power() in W;
-// std::optional<Vec3> sample(Vec2 u), a unit direction or nothing of a black light, and float pdf(Vec3 w), its density.
+// Intensity: Spectrum intensity(Vec3 w, const ShadingContext&) in W/sr along the unit direction w in the world,
+// Spectrum power() in W; std::optional<Vec3> sample(Vec2 u), a unit direction or nothing of a black light, and float
+// pdf(Vec3 w), its density.
 template <class Intensity>
 struct PointLight {
   Point3 position;
@@ -18,13 +19,13 @@ struct PointLight {
   bool is_infinite() const { return false; }
   bool is_delta() const { return true; }
 
-  std::optional<LightSample> sample_li(Point3 p, Vec2, LightSampling) const {
+  std::optional<LightSample> sample_li(Point3 p, Vec2, const ShadingContext& context, LightSampling) const {
     const Vec3 d = position - p;
     const float d2 = dot(d, d);
     if (!(d2 > 0.0f)) return {};
     LightSample s;
     s.wi = d * (1.0f / std::sqrt(d2));
-    s.radiance = emission.intensity(-s.wi) * (1.0f / d2);
+    s.radiance = emission.intensity(-s.wi, context) * (1.0f / d2);
     s.pdf = 1.0f;
     s.is_delta = true;
     // A normal towards p lets the shadow ray end as close to the light as rounding allows.
@@ -33,10 +34,11 @@ struct PointLight {
     if (is_black(s.radiance)) return {};
     return s;
   }
-  float pdf_li(Point3, Vec3, const SurfacePoint*, LightSampling) const { return 0.0f; }
-  Spectrum emitted(const SurfacePoint*, Vec3) const { return Spectrum(); }
+  float pdf_li(Point3, Vec3, const SurfacePoint*, const ShadingContext&, LightSampling) const { return 0.0f; }
+  Spectrum emitted(const SurfacePoint*, Vec3, const ShadingContext&, Point3) const { return Spectrum(); }
   // `at`: where the light's own space is, null when it is the world.
-  std::optional<EmissionSample> sample_le(Vec2, Vec2 u_direction, const Placement* at) const {
+  std::optional<EmissionSample> sample_le(Vec2, Vec2 u_direction, const ShadingContext& context,
+                                          const Placement* at) const {
     const std::optional<Vec3> own = emission.sample(u_direction);
     if (!own) return {};
     EmissionSample s;
@@ -46,13 +48,13 @@ struct PointLight {
     s.ray = {s.on_light.p, s.on_light.ng};
     // Value and density are looked up for the direction as it was rounded.
     const Vec3 rounded = to_own(s.ray.d, at);
-    s.radiance = emission.intensity(rounded);
+    s.radiance = emission.intensity(rounded, context);
     s.pdf_position = 1.0f;
     s.pdf_direction = emission.pdf(rounded);
     if (is_black(s.radiance) || !(s.pdf_direction > 0.0f) || !std::isfinite(s.pdf_direction)) return {};
     return s;
   }
-  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, Point3, const Placement* at) const {
+  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, const ShadingContext&, Point3, const Placement* at) const {
     return {1.0f, emission.pdf(to_own(w, at))};
   }
   Spectrum power() const { return emission.power(); }

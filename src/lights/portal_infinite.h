@@ -18,7 +18,7 @@ struct PortalInfiniteLight {
   bool is_infinite() const { return true; }
   bool is_delta() const { return false; }
   // Complete whatever is asked for: the window has taken away already what scattering finds well.
-  std::optional<LightSample> sample_li(Point3 p, Vec2 u, LightSampling) const {
+  std::optional<LightSample> sample_li(Point3 p, Vec2 u, const ShadingContext&, LightSampling) const {
     const std::optional<Vec3> w = map->sample(p, u);
     if (!w) return {};
     LightSample s;
@@ -28,10 +28,15 @@ struct PortalInfiniteLight {
     if (!(s.pdf > 0.0f) || !std::isfinite(s.pdf) || is_black(s.radiance)) return {};
     return s;
   }
-  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint*, LightSampling) const { return map->pdf(p, wi); }
-  Spectrum emitted(const SurfacePoint*, Vec3 w, Point3 seen_from) const { return map->value(seen_from, -w) * scale; }
+  float pdf_li(Point3 p, Vec3 wi, const SurfacePoint*, const ShadingContext&, LightSampling) const {
+    return map->pdf(p, wi);
+  }
+  Spectrum emitted(const SurfacePoint*, Vec3 w, const ShadingContext&, Point3 seen_from) const {
+    return map->value(seen_from, -w) * scale;
+  }
   // Uniform over the portal, and in directions in proportion to the mean of R, G and B. A portal does not move.
-  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const Placement*) const {
+  std::optional<EmissionSample> sample_le(Vec2 u_position, Vec2 u_direction, const ShadingContext&,
+                                          const Placement*) const {
     const std::optional<Vec3> from = map->sample(u_direction);
     if (!from) return {};
     const Portal& portal = map->portal();
@@ -50,7 +55,7 @@ struct PortalInfiniteLight {
       return {};
     return s;
   }
-  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, Point3 seen_from, const Placement*) const {
+  EmissionDensity pdf_le(const SurfacePoint*, Vec3 w, const ShadingContext&, Point3 seen_from, const Placement*) const {
     return {map->is_open(seen_from, -w) ? pdf_position() : 0.0f, map->pdf(-w)};
   }
   // What comes in through the portal.

@@ -64,7 +64,7 @@ std::optional<ProjectionIntensity::Cell> ProjectionIntensity::cell_of(Vec3 v) co
               std::min(static_cast<int>(t * static_cast<float>(height)), height - 1)};
 }
 
-Spectrum ProjectionIntensity::intensity(Vec3 w) const {
+Spectrum ProjectionIntensity::intensity(Vec3 w, const ShadingContext&) const {
   const auto cell = cell_of(axes.to_local(w));
   return cell ? texel(cell->x, cell->y) : Spectrum();
 }

@@ -36,7 +36,7 @@ struct ProjectionIntensity {
                                 LightData& data);
   static std::optional<PointLight<ProjectionIntensity>> create(const ParamReader& p, const LightContext& context);
 
-  Spectrum intensity(Vec3 w) const;
+  Spectrum intensity(Vec3 w, const ShadingContext&) const;
   std::optional<Vec3> sample(Vec2 u) const;
   float pdf(Vec3 w) const;
   Spectrum power() const;

@@ -59,7 +59,7 @@ struct SpotIntensity {
   }
 
   // A cubic smooth step in the cosine between the cones.
-  Spectrum intensity(Vec3 w) const {
+  Spectrum intensity(Vec3 w, const ShadingContext&) const {
     const float c = dot(w, axis);
     if (c >= cos_inner) return value;
     if (c <= cos_outer) return Spectrum();

@@ -70,12 +70,13 @@ namespace {
 // The closure of this bottom under the coat.
 template <class Bottom>
 Bsdf under_coat(const CoatSource& coat, bool remap, const Bottom& bottom, const TexCoord& at,
-                const TextureTable& textures) {
+                const TextureTable& textures, const ShadingContext& context) {
   constexpr auto max_g = static_cast<float>(kMaxMeanCosine);
-  const LayerSettings layer{clamp(textures.eval(coat.albedo, at), 0.0f, 1.0f),
-                            std::max(textures.eval(coat.thickness, at), 1e-20f),
-                            clamp(textures.eval(coat.g, at), -max_g, max_g), coat.max_depth, coat.samples};
-  const auto alpha = microfacet_alpha(textures.eval(coat.roughness.u, at), textures.eval(coat.roughness.v, at), remap);
+  const LayerSettings layer{clamp(textures.eval(coat.albedo, at, context), 0.0f, 1.0f),
+                            std::max(textures.eval(coat.thickness, at, context), 1e-20f),
+                            clamp(textures.eval(coat.g, at, context), -max_g, max_g), coat.max_depth, coat.samples};
+  const auto alpha = microfacet_alpha(textures.eval(coat.roughness.u, at, context),
+                                      textures.eval(coat.roughness.v, at, context), remap);
   if (!alpha || coat.eta == 1.0f)
     return Bsdf(Layered<SmoothDielectric, Bottom>{SmoothDielectric{coat.eta}, bottom, layer});
   return Bsdf(Layered<RoughDielectric, Bottom>{RoughDielectric{coat.eta, {alpha->x, alpha->y}}, bottom, layer});
@@ -104,8 +105,10 @@ CoatedDiffuseMaterial CoatedDiffuseMaterial::create(const ParamReader& p, Textur
   return {b.spectrum(p, "reflectance"), CoatSource::create(p, b, ""), p.boolean("remaproughness")};
 }
 
-Bsdf CoatedDiffuseMaterial::closure(const TexCoord& at, const TextureTable& textures) const {
-  return under_coat(coat, remap, Lambert{clamp(textures.eval(reflectance, at), 0.0f, 1.0f)}, at, textures);
+Bsdf CoatedDiffuseMaterial::closure(const TexCoord& at, const TextureTable& textures,
+                                    const ShadingContext& context) const {
+  return under_coat(coat, remap, Lambert{clamp(textures.eval(reflectance, at, context), 0.0f, 1.0f)}, at, textures,
+                    context);
 }
 
 const ModelDecl& CoatedConductorMaterial::decl() {
@@ -145,18 +148,20 @@ CoatedConductorMaterial CoatedConductorMaterial::create(const ParamReader& p, Te
   return m;
 }
 
-Bsdf CoatedConductorMaterial::closure(const TexCoord& at, const TextureTable& textures) const {
+Bsdf CoatedConductorMaterial::closure(const TexCoord& at, const TextureTable& textures,
+                                      const ShadingContext& context) const {
   Spectrum n(1.0f), kappa;
   if (by_reflectance) {
-    kappa = absorption_of_reflectance(textures.eval(reflectance, at));
+    kappa = absorption_of_reflectance(textures.eval(reflectance, at, context));
   } else {
     // The metal's indices are given against the outside; under the coat they are against the coat.
-    n = textures.eval(eta, at) / coat.eta;
-    kappa = textures.eval(k, at) / coat.eta;
+    n = textures.eval(eta, at, context) / coat.eta;
+    kappa = textures.eval(k, at, context) / coat.eta;
   }
-  const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
-  if (!alpha) return under_coat(coat, remap, SmoothConductor{n, kappa}, at, textures);
-  return under_coat(coat, remap, RoughConductor{n, kappa, {alpha->x, alpha->y}}, at, textures);
+  const auto alpha =
+      microfacet_alpha(textures.eval(roughness.u, at, context), textures.eval(roughness.v, at, context), remap);
+  if (!alpha) return under_coat(coat, remap, SmoothConductor{n, kappa}, at, textures, context);
+  return under_coat(coat, remap, RoughConductor{n, kappa, {alpha->x, alpha->y}}, at, textures, context);
 }
 
 }  // namespace etd

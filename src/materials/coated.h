@@ -26,7 +26,7 @@ struct CoatedDiffuseMaterial {
 
   static const ModelDecl& decl();
   static CoatedDiffuseMaterial create(const ParamReader& p, TextureBuilder& b);
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const;
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const;
 };
 
 struct CoatedConductorMaterial {
@@ -38,7 +38,7 @@ struct CoatedConductorMaterial {
 
   static const ModelDecl& decl();
   static CoatedConductorMaterial create(const ParamReader& p, TextureBuilder& b);
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const;
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const;
 };
 
 }  // namespace etd

@@ -29,15 +29,16 @@ struct ConductorMaterial {
   static const ModelDecl& decl();
   static ConductorMaterial create(const ParamReader& p, TextureBuilder& b);
 
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const {
     Spectrum n(1.0f), kappa;
     if (by_reflectance) {
-      kappa = absorption_of_reflectance(textures.eval(reflectance, at));
+      kappa = absorption_of_reflectance(textures.eval(reflectance, at, context));
     } else {
-      n = textures.eval(eta, at);
-      kappa = textures.eval(k, at);
+      n = textures.eval(eta, at, context);
+      kappa = textures.eval(k, at, context);
     }
-    const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
+    const auto alpha =
+        microfacet_alpha(textures.eval(roughness.u, at, context), textures.eval(roughness.v, at, context), remap);
     if (!alpha) return Bsdf(SmoothConductor{n, kappa});
     const RoughConductor rough{n, kappa, {alpha->x, alpha->y}};
     return energy ? Bsdf(EnergyCompensated<RoughConductor>{rough, energy}) : Bsdf(rough);

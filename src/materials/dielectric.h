@@ -19,8 +19,9 @@ struct DielectricMaterial {
   static const ModelDecl& decl();
   static DielectricMaterial create(const ParamReader& p, TextureBuilder& b);
 
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
-    const auto alpha = microfacet_alpha(textures.eval(roughness.u, at), textures.eval(roughness.v, at), remap);
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const {
+    const auto alpha =
+        microfacet_alpha(textures.eval(roughness.u, at, context), textures.eval(roughness.v, at, context), remap);
     if (!alpha || eta == 1.0f) return Bsdf(SmoothDielectric{eta});
     const RoughDielectric rough{eta, {alpha->x, alpha->y}};
     return energy ? Bsdf(EnergyCompensated<RoughDielectric>{rough, energy}) : Bsdf(rough);

@@ -25,8 +25,8 @@ struct DiffuseMaterial {
   }
   static DiffuseMaterial create(const ParamReader& p, TextureBuilder& b) { return {b.spectrum(p, "reflectance")}; }
 
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
-    return Bsdf(Lambert{clamp(textures.eval(reflectance, at), 0.0f, 1.0f)});
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const {
+    return Bsdf(Lambert{clamp(textures.eval(reflectance, at, context), 0.0f, 1.0f)});
   }
 };
 

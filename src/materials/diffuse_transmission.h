@@ -37,9 +37,9 @@ struct DiffuseTransmissionMaterial {
     return {b.spectrum(p, "reflectance"), b.spectrum(p, "transmittance"), static_cast<float>(p.number("scale"))};
   }
 
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const {
-    Spectrum r = max(textures.eval(reflectance, at) * scale, 0.0f);
-    Spectrum t = max(textures.eval(transmittance, at) * scale, 0.0f);
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const {
+    Spectrum r = max(textures.eval(reflectance, at, context) * scale, 0.0f);
+    Spectrum t = max(textures.eval(transmittance, at, context) * scale, 0.0f);
     for (int i = 0; i < Spectrum::kLanes; ++i) {
       const float sum = r[i] + t[i];
       if (sum > 1.0f) r.v[i] /= sum, t.v[i] /= sum;

@@ -31,8 +31,8 @@ template Material::Material(const MixMaterial&);
 template Material::Material(const CoatedDiffuseMaterial&);
 template Material::Material(const CoatedConductorMaterial&);
 
-Bsdf Material::closure(const TexCoord& at, const TextureTable& textures) const {
-  return dispatch<Bsdf, Materials>(storage_, [&](const auto& m) { return m.closure(at, textures); });
+Bsdf Material::closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const {
+  return dispatch<Bsdf, Materials>(storage_, [&](const auto& m) { return m.closure(at, textures, context); });
 }
 
 namespace {
@@ -41,10 +41,10 @@ const MixMaterial* as_mix(const TaggedStorage<240>& storage) {
 }
 }  // namespace
 
-const Material& Material::resolve(const TexCoord& at, const TextureTable& textures, std::span<const Material> all,
-                                  HashStream& rng) const {
+const Material& Material::resolve(const TexCoord& at, const TextureTable& textures, const ShadingContext& context,
+                                  std::span<const Material> all, HashStream& rng) const {
   const Material* m = this;
-  while (const MixMaterial* mix = as_mix(m->storage_)) m = &all[mix->choose(at, textures, rng.next_float())];
+  while (const MixMaterial* mix = as_mix(m->storage_)) m = &all[mix->choose(at, textures, context, rng.next_float())];
   return *m;
 }
 

@@ -17,17 +17,18 @@ class Material {
   template <class T>
   explicit Material(const T& material);
   // Returns the closure of any material but a mix, for which resolve() comes first.
-  Bsdf closure(const TexCoord& at, const TextureTable& textures) const;
+  Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const;
 
   // The material itself, or of a mix the one of `all` that is chosen, down to one that is no mix. Takes one number of
   // the stream for each choice.
-  const Material& resolve(const TexCoord& at, const TextureTable& textures, std::span<const Material> all,
-                          HashStream& rng) const;
+  const Material& resolve(const TexCoord& at, const TextureTable& textures, const ShadingContext& context,
+                          std::span<const Material> all, HashStream& rng) const;
   // The materials that this one refers to, as indices.
   std::span<const uint32_t> children() const;
   // The frame in which the closure scatters at a point.
-  Frame frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const {
-    return detail.frame(point, at, textures);
+  Frame frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures,
+              const ShadingContext& context) const {
+    return detail.frame(point, at, textures, context);
   }
 
   SurfaceDetail detail;

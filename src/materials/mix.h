@@ -15,11 +15,11 @@ struct MixMaterial {
   static const ModelDecl& decl();
   static MixMaterial create(const ParamReader& p, TextureBuilder& b, const MaterialNames& names);
 
-  uint32_t choose(const TexCoord& at, const TextureTable& textures, float u) const {
-    return children[u < textures.eval(amount, at) ? 1 : 0];
+  uint32_t choose(const TexCoord& at, const TextureTable& textures, const ShadingContext& context, float u) const {
+    return children[u < textures.eval(amount, at, context) ? 1 : 0];
   }
   // Is never what a ray meets: choose() comes first.
-  Bsdf closure(const TexCoord&, const TextureTable&) const { return Bsdf(); }
+  Bsdf closure(const TexCoord&, const TextureTable&, const ShadingContext&) const { return Bsdf(); }
 };
 
 }  // namespace etd

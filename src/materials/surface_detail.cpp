@@ -44,7 +44,8 @@ float step_of(float change_x, float change_y) {
 
 // The normal of the surface moved by d along n is along n - grad d, where grad is taken along the surface (Blinn 1978;
 // d times the surface's curvature is left out).
-Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) {
+Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord& at, const TextureTable& textures,
+            const ShadingContext& context) {
   const Vec3 n = point.ns;
   const float area = dot(n, cross(point.dpdu, point.dpdv));
   if (area == 0.0f) return n;
@@ -54,8 +55,9 @@ Vec3 bumped(const FloatSource& height, const SurfacePoint& point, const TexCoord
   beside.p = at.p + point.dpdu * du;
   above.uv.y += dv;
   above.p = at.p + point.dpdv * dv;
-  const float d = textures.eval(height, at);
-  const float d_u = (textures.eval(height, beside) - d) / du, d_v = (textures.eval(height, above) - d) / dv;
+  const float d = textures.eval(height, at, context);
+  const float d_u = (textures.eval(height, beside, context) - d) / du,
+              d_v = (textures.eval(height, above, context) - d) / dv;
   const Vec3 gradient = (cross(point.dpdv, n) * d_u + cross(n, point.dpdu) * d_v) * (1.0f / area);
   return is_finite(gradient) ? normalize(n - gradient) : n;
 }
@@ -68,11 +70,12 @@ float handedness(const SurfacePoint& point) {
 
 }  // namespace
 
-Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const {
+Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures,
+                           const ShadingContext& context) const {
   const Frame plain = Frame::from_z_tangent(point.ns, point.dpdu);
   Vec3 n = point.ns;
   if (normal_map >= 0) {
-    const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at);
+    const Spectrum rgb = textures.eval(SpectrumSource{{}, normal_map}, at, context);
     if (is_black(rgb)) return plain;  // outside of an image that is not repeated: no normal at all
     // The normal of the map is given towards growing u and v. The frame below is right-handed all the same: closures do
     // not tell y from -y.
@@ -80,7 +83,7 @@ Frame SurfaceDetail::frame(const SurfacePoint& point, const TexCoord& at, const 
     if (!(dot(local, local) > 1e-8f)) return plain;
     n = normalize(plain.to_world(local));
   } else if (displacement.texture >= 0) {
-    n = bumped(displacement, point, at, textures);
+    n = bumped(displacement, point, at, textures, context);
   } else {
     return plain;
   }

@@ -16,7 +16,8 @@ struct SurfaceDetail {
   static SurfaceDetail create(const ParamReader& p, TextureBuilder& b);
 
   // The frame in which the surface scatters: z is the changed normal, on the side of ng.
-  Frame frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures) const;
+  Frame frame(const SurfacePoint& point, const TexCoord& at, const TextureTable& textures,
+              const ShadingContext& context) const;
 };
 
 }  // namespace etd

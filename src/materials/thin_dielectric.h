@@ -20,7 +20,7 @@ struct ThinDielectricMaterial {
   }
   static ThinDielectricMaterial create(const ParamReader& p, TextureBuilder&) { return {clear_index(p, "eta")}; }
 
-  Bsdf closure(const TexCoord&, const TextureTable&) const { return Bsdf(ThinDielectric{eta}); }
+  Bsdf closure(const TexCoord&, const TextureTable&, const ShadingContext&) const { return Bsdf(ThinDielectric{eta}); }
 };
 
 }  // namespace etd

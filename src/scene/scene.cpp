@@ -26,7 +26,7 @@ bool Scene::occluded(const Ray& ray) const {
 bool Scene::is_hole(const Ray& ray, const Hit& hit) const {
   const SurfaceBinding& binding = binding_of(hit);
   if (!binding.has_holes) return false;
-  const float alpha = textures.eval(binding.alpha, point_coord(surface_point(geometry, hit)));
+  const float alpha = textures.eval(binding.alpha, point_coord(surface_point(geometry, hit)), {ray.time});
   return !(alpha >= 1.0f) && !(number_of(ray, hit) < alpha);
 }
 
@@ -71,10 +71,10 @@ TexCoord Scene::tex_coord(const SurfacePoint& s) const {
   return at;
 }
 
-Shading Scene::shade(const SurfaceHit& surface, HashStream& rng) const {
+Shading Scene::shade(const SurfaceHit& surface, const ShadingContext& context, HashStream& rng) const {
   const TexCoord at = tex_coord(surface.point);
-  const Material& material = surface.material->resolve(at, textures, materials, rng);
-  return {material.closure(at, textures), material.frame(surface.point, at, textures), &material};
+  const Material& material = surface.material->resolve(at, textures, context, materials, rng);
+  return {material.closure(at, textures, context), material.frame(surface.point, at, textures, context), &material};
 }
 
 size_t Scene::geometry_bytes() const {

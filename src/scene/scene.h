@@ -52,14 +52,14 @@ class Scene {
   bool occluded(const Ray& ray) const;
   // Share of a light's surface that is there: what is sampled on it shines with this factor. Scattering finds it with
   // this probability in the first place.
-  float light_alpha(uint32_t light, const SurfacePoint& on_light) const {
+  float light_alpha(uint32_t light, const SurfacePoint& on_light, const ShadingContext& context) const {
     return light < light_alphas.size()
-               ? std::clamp(textures.eval(light_alphas[light], point_coord(on_light)), 0.0f, 1.0f)
+               ? std::clamp(textures.eval(light_alphas[light], point_coord(on_light), context), 0.0f, 1.0f)
                : 1.0f;
   }
   SurfaceHit surface(const Hit& hit) const;
   // How the surface scatters there. `rng` decides between mixed materials.
-  Shading shade(const SurfaceHit& surface, HashStream& rng) const;
+  Shading shade(const SurfaceHit& surface, const ShadingContext& context, HashStream& rng) const;
   // What the surface that was hit is made of.
   const SurfaceBinding& binding_of(const Hit& hit) const {
     if (hit.on_patch()) return patch_bindings[hit.patch_mesh()];

@@ -28,7 +28,7 @@ struct BilerpTexture {
             Mapping2::create(p, b)};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
     const Vec2 st = mapping(at, table).st;
     // Coordinates are kept where products of them are numbers.
     const float s = clamp(st.x, -1e15f, 1e15f), t = clamp(st.y, -1e15f, 1e15f);

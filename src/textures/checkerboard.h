@@ -41,11 +41,11 @@ struct CheckerboardTexture {
     return t;
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
     const float share2 = 0.5f - 0.5f * mean_sign(at, table);
-    if (share2 <= 0.0f) return table.eval(tex1, at);
-    if (share2 >= 1.0f) return table.eval(tex2, at);
-    return table.eval(tex1, at) * (1.0f - share2) + table.eval(tex2, at) * share2;
+    if (share2 <= 0.0f) return table.eval(tex1, at, context);
+    if (share2 >= 1.0f) return table.eval(tex2, at, context);
+    return table.eval(tex1, at, context) * (1.0f - share2) + table.eval(tex2, at, context) * share2;
   }
 
  private:

@@ -20,7 +20,7 @@ struct ConstantTexture {
   }
   static ConstantTexture create(const ParamReader& p, TextureBuilder&) { return {spectrum_value(p, "value")}; }
 
-  Spectrum eval(const TexCoord&, const TextureTable&) const { return value; }
+  Spectrum eval(const TexCoord&, const TextureTable&, const ShadingContext&) const { return value; }
 };
 
 }  // namespace etd

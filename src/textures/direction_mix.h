@@ -41,11 +41,11 @@ struct DirectionMixTexture {
     return t;
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
     const float c = std::min(std::abs(dot(at.n, direction)), 1.0f);
-    if (c == 0.0f) return table.eval(tex2, at);
-    if (c == 1.0f) return table.eval(tex1, at);
-    return table.eval(tex1, at) * c + table.eval(tex2, at) * (1.0f - c);
+    if (c == 0.0f) return table.eval(tex2, at, context);
+    if (c == 1.0f) return table.eval(tex1, at, context);
+    return table.eval(tex1, at, context) * c + table.eval(tex2, at, context) * (1.0f - c);
   }
 };
 

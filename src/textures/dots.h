@@ -24,8 +24,8 @@ struct DotsTexture {
     return {b.spectrum(p, "inside"), b.spectrum(p, "outside"), Mapping2::create(p, b)};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
-    return table.eval(in_dot(mapping(at, table).st) ? inside : outside, at);
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
+    return table.eval(in_dot(mapping(at, table).st) ? inside : outside, at, context);
   }
 
  private:

@@ -20,7 +20,7 @@ struct FbmTexture {
   }
   static FbmTexture create(const ParamReader& p, TextureBuilder& b) { return {Mapping3::create(p, b), noise_sum(p)}; }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
     const MappedPoint3 m = mapping(at, table);
     return Spectrum(fbm(m.p, m.dx, m.dy, sum));
   }

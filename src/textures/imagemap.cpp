@@ -70,7 +70,7 @@ ImageMapTexture ImageMapTexture::create(const ParamReader& p, TextureBuilder& b)
   return t;
 }
 
-Spectrum ImageMapTexture::eval(const TexCoord& at, const TextureTable& table) const {
+Spectrum ImageMapTexture::eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
   const TextureImage& source = table.images[static_cast<size_t>(image)];
   const MappedPoint2 m = mapping(at, table);
   const Spectrum rgba =

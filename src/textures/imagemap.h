@@ -19,7 +19,7 @@ struct ImageMapTexture {
   static const ModelDecl& decl();
   static ImageMapTexture create(const ParamReader& p, TextureBuilder& b);
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const;
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const;
 };
 
 }  // namespace etd

@@ -29,7 +29,7 @@ struct MarbleTexture {
             static_cast<float>(p.number("variation"))};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
     const MappedPoint3 m = mapping(at, table);
     const Point3 p = Point3{} + (m.p - Point3{}) * scale;
     const float phase = p.y + variation * fbm(p, m.dx * scale, m.dy * scale, sum);

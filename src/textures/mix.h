@@ -26,11 +26,11 @@ struct MixTexture {
     return {b.spectrum(p, "tex1"), b.spectrum(p, "tex2"), b.number(p, "amount")};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
-    const float a = table.eval(amount, at);
-    if (a == 0.0f) return table.eval(tex1, at);
-    if (a == 1.0f) return table.eval(tex2, at);
-    return table.eval(tex1, at) * (1.0f - a) + table.eval(tex2, at) * a;
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
+    const float a = table.eval(amount, at, context);
+    if (a == 0.0f) return table.eval(tex1, at, context);
+    if (a == 1.0f) return table.eval(tex2, at, context);
+    return table.eval(tex1, at, context) * (1.0f - a) + table.eval(tex2, at, context) * a;
   }
 };
 

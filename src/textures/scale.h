@@ -22,8 +22,8 @@ struct ScaleTexture {
     return {b.spectrum(p, "tex"), b.number(p, "scale")};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
-    return table.eval(tex, at) * table.eval(scale, at);
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
+    return table.eval(tex, at, context) * table.eval(scale, at, context);
   }
 };
 

@@ -33,8 +33,8 @@ Texture::Texture(const T& texture) {
 }
 template Texture::Texture(const ImageMapTexture&);
 
-Spectrum Texture::eval(const TexCoord& at, const TextureTable& table) const {
-  return dispatch<Spectrum, Textures>(storage_, [&](const auto& t) { return t.eval(at, table); });
+Spectrum Texture::eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
+  return dispatch<Spectrum, Textures>(storage_, [&](const auto& t) { return t.eval(at, table, context); });
 }
 
 size_t TextureTable::image_bytes() const {

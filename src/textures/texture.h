@@ -7,6 +7,7 @@
 
 #include "core/affine.h"
 #include "core/tagged.h"
+#include "spectrum/shading_context.h"
 #include "spectrum/spectrum.h"
 #include "textures/texture_image.h"
 
@@ -38,7 +39,7 @@ class Texture {
  public:
   template <class T>
   explicit Texture(const T& texture);
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const;
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const;
 
  private:
   TaggedStorage<128> storage_;
@@ -47,11 +48,12 @@ class Texture {
 // All textures and images of a scene; const while rendering.
 class TextureTable {
  public:
-  Spectrum eval(const SpectrumSource& source, const TexCoord& at) const {
-    return source.texture < 0 ? source.value : textures[static_cast<size_t>(source.texture)].eval(at, *this);
+  Spectrum eval(const SpectrumSource& source, const TexCoord& at, const ShadingContext& context) const {
+    return source.texture < 0 ? source.value : textures[static_cast<size_t>(source.texture)].eval(at, *this, context);
   }
-  float eval(const FloatSource& source, const TexCoord& at) const {
-    return source.texture < 0 ? source.value : textures[static_cast<size_t>(source.texture)].eval(at, *this)[0];
+  float eval(const FloatSource& source, const TexCoord& at, const ShadingContext& context) const {
+    return source.texture < 0 ? source.value
+                              : textures[static_cast<size_t>(source.texture)].eval(at, *this, context)[0];
   }
   // The memory that images take now.
   size_t image_bytes() const;

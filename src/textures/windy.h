@@ -22,7 +22,7 @@ struct WindyTexture {
   }
   static WindyTexture create(const ParamReader& p, TextureBuilder& b) { return {Mapping3::create(p, b)}; }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
     const MappedPoint3 m = mapping(at, table);
     const float wind = fbm(Point3{} + (m.p - Point3{}) * 0.1f, m.dx * 0.1f, m.dy * 0.1f, {3, 0.5f});
     return Spectrum(std::abs(wind) * fbm(m.p, m.dx, m.dy, {6, 0.5f}));

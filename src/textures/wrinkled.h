@@ -23,7 +23,7 @@ struct WrinkledTexture {
     return {Mapping3::create(p, b), noise_sum(p)};
   }
 
-  Spectrum eval(const TexCoord& at, const TextureTable& table) const {
+  Spectrum eval(const TexCoord& at, const TextureTable& table, const ShadingContext&) const {
     const MappedPoint3 m = mapping(at, table);
     return Spectrum(turbulence(m.p, m.dx, m.dy, sum));
   }

@@ -144,8 +144,8 @@ edit(lights/environment_map.cpp [[const float phi = std::atan2(w.y, w.x);]]
 
 closed_forms(tests point_light point_light_power)
 fault(point-light-without-distance "point lights do not fade with distance" "${lights}:${tests}")
-edit(lights/point_lights.h [[emission.intensity(-s.wi) * (1.0f / d2);]]
-     [[emission.intensity(-s.wi) * (FAULT ? 1.0f : 1.0f / d2);]])
+edit(lights/point_lights.h [[emission.intensity(-s.wi, context) * (1.0f / d2);]]
+     [[emission.intensity(-s.wi, context) * (FAULT ? 1.0f : 1.0f / d2);]])
 
 closed_forms(tests spot_light spot_light_power)
 fault(spot-power-without-fade "the power of a spot light leaves out that its edge fades" "${lights}:${tests}")
@@ -238,8 +238,8 @@ edit(integrators/path.cpp [[only_scattering = s->is_delta();]] [[only_scattering
 
 closed_forms(tests alpha_light alpha_sky alpha_veil)
 fault(holes-of-lights-ignored "light samples count the holes of a light" "${tests}")
-edit(integrators/next_event.h [[* scene.light_alpha(choice->light, s->on_light)]]
-     [[* (FAULT ? 1.0f : scene.light_alpha(choice->light, s->on_light))]])
+edit(integrators/next_event.h [[* scene.light_alpha(choice->light, s->on_light, v.context)]]
+     [[* (FAULT ? 1.0f : scene.light_alpha(choice->light, s->on_light, v.context))]])
 
 fault(holes-throw-shadows "shadow rays do not pass through holes" "${tests}:Alpha.*")
 edit(scene/scene.cpp [[(!has_holes || intersect(ray, hit));]] [[(FAULT || !has_holes || intersect(ray, hit));]])
@@ -273,8 +273,8 @@ edit(integrators/light.cpp [[const float geometry = std::abs(dot(point.ng, c->wi
 
 fault(radiance-along-light-paths "paths from lights scatter as paths from the camera do"
       "StatisticalAgreement.BumpyRoom:StatisticalAgreement.BumpyGlass")
-edit(integrators/light.cpp [[v.scatter.eval_cos(v.wo, c->wi, TransportMode::kImportance, v.rng)]]
-     [[v.scatter.eval_cos(v.wo, c->wi, FAULT ? TransportMode::kRadiance : TransportMode::kImportance, v.rng)]])
+edit(integrators/light.cpp [[v.scatter.eval_cos(v.wo(), c->wi, TransportMode::kImportance, v.rng)]]
+     [[v.scatter.eval_cos(v.wo(), c->wi, FAULT ? TransportMode::kRadiance : TransportMode::kImportance, v.rng)]])
 
 fault(density-of-one-disk "rays of infinite lights have the density of the disk that was chosen" "${lights}")
 edit(lights/emission_disks.cpp [[if (level == known || meets(s))]] [[if (level == known || (!(FAULT && known >= 0) && meets(s)))]])
@@ -316,8 +316,8 @@ edit(shapes/placement.cpp [[const Vec3 ng = placement.to_object.transposed(s.ng)
      [[const Vec3 ng = FAULT ? m.vector(s.ng) : placement.to_object.transposed(s.ng);]])
 
 fault(rays-start-on-the-surface "scattered rays start without distance to their surface" "Leak.*:Accel.*:QuadricLeak.*")
-edit(accel/spawn.h [[return {offset_origin(s, w), w, kInfinity, time};]]
-     [[return {FAULT ? s.p : offset_origin(s, w), w, kInfinity, time};]])
+edit(accel/spawn.h [[return {offset_origin(s, w), w, kInfinity, before.time, before.medium};]]
+     [[return {FAULT ? s.p : offset_origin(s, w), w, kInfinity, before.time, before.medium};]])
 
 closed_forms(tests cap_light cylinder_light ring_light)
 fault(quadric-stretch "sampling a stretched quadric leaves out how its area stretches" "Quadric*:${tests}:${lights}")
@@ -350,7 +350,8 @@ edit(integrators/camera_path.h [[scene.moves ? sampler.get_1d() : 0.0f]] [[scene
 
 closed_forms(tests motion_disk_light motion_point_light motion_sphere_light)
 fault(light-at-another-time "lights are sampled where they are when the shutter opens" "${tests}")
-edit(integrators/next_event.h [[how.sampling(), v.time);]] [[how.sampling(), FAULT ? 0.0f : v.time);]])
+edit(integrators/next_event.h [[u_point, v.context, how.sampling());]]
+     [[u_point, FAULT ? ShadingContext{} : v.context, how.sampling());]])
 
 closed_forms(tests motion_growing_light motion_stretching_light)
 fault(stretch-of-moving-lights "the density on a moving light leaves out how its size changes" "${tests}")

@@ -44,7 +44,7 @@ std::vector<CheckResult> check_mixed_scene(const std::string& name, double amoun
   const TexCoord at{{0.3f, 0.6f}};
   const auto choose = [&](HashStream& rng) {
     const Bsdf chosen =
-        scene.materials.at(3).resolve(at, scene.textures, scene.materials, rng).closure(at, scene.textures);
+        scene.materials.at(3).resolve(at, scene.textures, {}, scene.materials, rng).closure(at, scene.textures, {});
     return static_cast<double>(chosen.albedo({0, 0, 1})[0]);
   };
   return check_mix(name, amount, choose, options);
@@ -57,7 +57,7 @@ std::vector<CheckResult> check_material(const std::string& name, const ModelUse&
   d.materials.push_back({"", use});
   const BareScene bare = compile_bare(d);
   if (!bare.scene) return {not_made(name, bare.problem)};
-  const Bsdf closure = bare.scene->materials.at(1).closure({{0.3f, 0.6f}}, bare.scene->textures);
+  const Bsdf closure = bare.scene->materials.at(1).closure({{0.3f, 0.6f}}, bare.scene->textures, {});
   return check_bsdf(scatter_model(name, closure, closure.traits(), false, kMinCos),
                     {static_cast<size_t>(options.samples * kSamples), options.seed, options.family_level});
 }

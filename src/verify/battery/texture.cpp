@@ -53,7 +53,7 @@ std::vector<CheckResult> check_use(const std::string& name, const ModelUse& use)
       continue;
     }
     const auto eval = [scene = bare.scene](Vec2 uv) {
-      return scene->textures.textures.back().eval({uv}, scene->textures);
+      return scene->textures.textures.back().eval({uv}, scene->textures, {});
     };
     for (CheckResult& r : check_texture({name, is_number, eval})) results.push_back(std::move(r));
   }

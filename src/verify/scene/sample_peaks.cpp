@@ -16,12 +16,13 @@ constexpr int kPaths = 512, kDepth = 3, kLightSamples = 16;
 constexpr double kMargin = 4.0;
 
 // The brightest emission, and the most that a sampled light can bring to a surface that reflects 1 to all sides.
-void look_at_lights(const Scene& scene, Point3 p, float time, HashStream& rng, double& emission, double& arriving) {
+void look_at_lights(const Scene& scene, Point3 p, const ShadingContext& context, HashStream& rng, double& emission,
+                    double& arriving) {
   for (int i = 0; i < kLightSamples; ++i) {
     const auto choice = scene.light_sampler.sample(static_cast<double>(rng.next_float()));
     if (!choice) return;
     const float x = rng.next_float(), y = rng.next_float();
-    const auto s = scene.lights[choice->light].sample_li(p, {x, y}, LightSampling::kComplete, time);
+    const auto s = scene.lights[choice->light].sample_li(p, {x, y}, context);
     if (!s) continue;
     const double radiance = max_value(s->radiance);
     if (!s->is_delta) emission = std::max(emission, radiance);
@@ -41,19 +42,20 @@ SamplePeaks find_sample_peaks(const Scene& scene, int width, int height) {
     at.lens.x = rng.next_float(), at.lens.y = rng.next_float();
     at.time = rng.next_float();
     Ray ray = scene.camera.generate_ray(at);
+    const ShadingContext context{ray.time};
     for (int depth = 0; depth < kDepth; ++depth) {
       Hit hit;
       if (!scene.intersect(ray, hit)) break;
       const SurfaceHit surface = scene.surface(hit);
-      look_at_lights(scene, surface.point.p, ray.time, rng, emission, arriving);
-      const Shading shading = scene.shade(surface, rng);
+      look_at_lights(scene, surface.point.p, context, rng, emission, arriving);
+      const Shading shading = scene.shade(surface, context, rng);
       const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
       const float x = rng.next_float(), y = rng.next_float(), z = rng.next_float();
       const auto s = scatter.sample(-ray.d, {x, y, z}, TransportMode::kRadiance, rng);
       if (!s) break;
       if (!s->is_delta())
         closure = std::max(closure, static_cast<double>(max_value(s->weight)) * static_cast<double>(s->pdf));
-      ray = spawn_ray(surface.point, s->wi, ray.time);
+      ray = spawn_ray(surface.point, s->wi, ray);
     }
   }
   return {kMargin * emission, kMargin * std::max(emission, arriving * closure)};

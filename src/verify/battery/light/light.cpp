@@ -167,7 +167,8 @@ LightModel light_model(const LightExample& example, const EmissionDisks& disks) 
   const Light light = example.light;
   LightModel m;
   m.name = example.name;
-  const float time = m.time = example.time;
+  m.time = example.time;
+  const ShadingContext context{m.time};
   // What moves is a group of its own.
   GeometryGroup group;
   if (example.mesh) {
@@ -195,11 +196,11 @@ LightModel light_model(const LightExample& example, const EmissionDisks& disks) 
   m.delta = light.is_delta();
   m.sampling = example.sampling;
   const auto mode = example.sampling;
-  m.sample_li = [=](Point3 p, Vec2 u) { return light.sample_li(p, u, mode, time); };
-  m.pdf_li = [=](Point3 p, Vec3 wi, const SurfacePoint* s) { return light.pdf_li(p, wi, s, mode, time); };
-  m.emitted = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, from, time); };
-  m.sample_le = [=](Vec2 position, Vec2 direction) { return light.sample_le(position, direction, disks, time); };
-  m.pdf_le = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.pdf_le(s, w, disks, from, time); };
+  m.sample_li = [=](Point3 p, Vec2 u) { return light.sample_li(p, u, context, mode); };
+  m.pdf_li = [=](Point3 p, Vec3 wi, const SurfacePoint* s) { return light.pdf_li(p, wi, s, context, mode); };
+  m.emitted = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.emitted(s, w, context, from); };
+  m.sample_le = [=](Vec2 position, Vec2 direction) { return light.sample_le(position, direction, disks, context); };
+  m.pdf_le = [=](const SurfacePoint* s, Vec3 w, Point3 from) { return light.pdf_le(s, w, disks, context, from); };
   return m;
 }
 

@@ -19,15 +19,17 @@ class LightRays {
   // The model must outlive it.
   explicit LightRays(const LightModel& model) : model_(model), accelerator_(model.geometry) {}
 
-  Seen look(Point3 o, Vec3 d) const { return look({o, d, kInfinity, model_.time}); }
+  Seen look(Point3 o, Vec3 d) const { return look(line(o, d)); }
   // Calls f(surface point) wherever the line that starts outside of the light crosses its surface.
   template <class F>
   void for_crossings(Point3 o, Vec3 d, F&& f) const {
-    Seen seen = look(o, d);
+    Ray ray = line(o, d);
+    Seen seen = look(ray);
     // More sheets than this no light has: a surface that rays cannot leave shows as too many.
     for (int sheet = 0; seen.point && sheet < 17; ++sheet) {
       f(*seen.point);
-      seen = look(spawn_ray(*seen.point, d, model_.time));
+      ray = spawn_ray(*seen.point, d, ray);
+      seen = look(ray);
     }
   }
   // Density of light samples along wi, of those that are visible and carry light.
@@ -44,6 +46,7 @@ class LightRays {
   bool leaves(const Ray& ray) const { return !accelerator_.occluded(ray); }
 
  private:
+  Ray line(Point3 o, Vec3 d) const { return {o, d, kInfinity, model_.time}; }
   Seen look(const Ray& ray) const {
     Seen seen;
     Hit hit;
