@@ -1,23 +1,9 @@
-// The list of cameras and their dispatch. To add one: its header, its name in the lists, its constructor line.
 #include "cameras/camera.h"
 
-#include "cameras/orthographic.h"
-#include "cameras/perspective.h"
-#include "cameras/spherical.h"
+#include "cameras/camera_list.h"
+#include "params/model_list.h"
 
 namespace etd {
-
-namespace {
-using Cameras = TypeList<OrthographicCamera, PerspectiveCamera, SphericalCamera>;
-}  // namespace
-
-template <class T>
-Camera::Camera(const T& camera, int width, int height) : size_{static_cast<float>(width), static_cast<float>(height)} {
-  storage_.store<Cameras>(camera);
-}
-template Camera::Camera(const OrthographicCamera&, int, int);
-template Camera::Camera(const PerspectiveCamera&, int, int);
-template Camera::Camera(const SphericalCamera&, int, int);
 
 void Camera::set_motion(const Shutter& shutter, std::optional<AnimatedTransform> motion) {
   shutter_ = shutter;
@@ -85,18 +71,18 @@ Vec2 Camera::repeated(Vec2 film, int column, int row) const {
 }
 
 std::span<const ModelDecl* const> camera_models() {
-  static const ModelDecl* const all[] = {&PerspectiveCamera::decl(), &OrthographicCamera::decl(),
-                                         &SphericalCamera::decl()};
+  static const std::vector<const ModelDecl*> all = declarations(Cameras{});
   return all;
 }
 
 Camera make_camera(const ModelUse& use, const CameraFrame& frame, CameraData& data, Diagnostics& diagnostics) {
-  const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
-  const auto made = [&](const auto& camera) { return Camera(camera, frame.width, frame.height); };
-  if (use.model == "orthographic")
-    return made(OrthographicCamera::create(reader(OrthographicCamera::decl()), frame, data));
-  if (use.model == "spherical") return made(SphericalCamera::create(reader(SphericalCamera::decl()), frame));
-  return made(PerspectiveCamera::create(reader(PerspectiveCamera::decl()), frame, data));
+  Camera camera;
+  const auto make = [&]<class T>(std::type_identity<T>, const ParamReader& p) {
+    camera = Camera(T::create(p, frame, data), frame.width, frame.height);
+  };
+  if (!with_model(Cameras{}, use, diagnostics, make))
+    make(std::type_identity<PerspectiveCamera>(), {PerspectiveCamera::decl(), use, diagnostics});
+  return camera;
 }
 
 }  // namespace etd

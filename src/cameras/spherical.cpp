@@ -21,7 +21,7 @@ const ModelDecl& SphericalCamera::decl() {
   return d;
 }
 
-SphericalCamera SphericalCamera::create(const ParamReader& p, const CameraFrame& frame) {
+SphericalCamera SphericalCamera::create(const ParamReader& p, const CameraFrame& frame, CameraData&) {
   const Transform& t = frame.camera_to_world;
   SphericalCamera c;
   c.origin = to_float(t.point({0, 0, 0}));

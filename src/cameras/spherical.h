@@ -12,7 +12,7 @@ struct SphericalCamera {
   bool equal_area = true;
 
   static const ModelDecl& decl();
-  static SphericalCamera create(const ParamReader& p, const CameraFrame& frame);
+  static SphericalCamera create(const ParamReader& p, const CameraFrame& frame, CameraData& data);
 
   Ray generate_ray(const CameraSample& s) const {
     const Vec3 d = direction({s.film.x * pixel.x, s.film.y * pixel.y});
