@@ -5,7 +5,7 @@
 
 #include "shapes/mesh.h"
 #include "shapes/triangle.h"
-#include "textures/imagemap.h"
+#include "textures/texture_list.h"
 
 namespace etd {
 namespace {

@@ -1,37 +1,14 @@
-// The list of textures, their dispatch and their building. To add one: its header, its name in the list.
 #include "textures/texture.h"
 
 #include <fmt/format.h>
 
 #include <set>
 
-#include "textures/bilerp.h"
-#include "textures/checkerboard.h"
-#include "textures/constant.h"
-#include "textures/direction_mix.h"
-#include "textures/dots.h"
-#include "textures/fbm.h"
-#include "textures/imagemap.h"
-#include "textures/marble.h"
-#include "textures/mix.h"
+#include "params/model_list.h"
 #include "textures/resolve.h"
-#include "textures/scale.h"
-#include "textures/windy.h"
-#include "textures/wrinkled.h"
+#include "textures/texture_list.h"
 
 namespace etd {
-
-namespace {
-using Textures =
-    TypeList<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, BilerpTexture, ImageMapTexture,
-             CheckerboardTexture, DotsTexture, FbmTexture, WrinkledTexture, WindyTexture, MarbleTexture>;
-}  // namespace
-
-template <class T>
-Texture::Texture(const T& texture) {
-  storage_.store<Textures>(texture);
-}
-template Texture::Texture(const ImageMapTexture&);
 
 Spectrum Texture::eval(const TexCoord& at, const TextureTable& table, const ShadingContext& context) const {
   return dispatch<Spectrum, Textures>(storage_, [&](const auto& t) { return t.eval(at, table, context); });
@@ -50,11 +27,6 @@ size_t TextureTable::image_bytes() const {
 
 namespace {
 
-template <class... Ts>
-std::vector<const ModelDecl*> declarations(TypeList<Ts...>) {
-  return {&Ts::decl()...};
-}
-
 // Reports a kind of texture that the model does not make.
 template <class T>
 void check_kind(const ParamReader& p, const TextureBuilder& builder) {
@@ -68,17 +40,12 @@ void check_kind(const ParamReader& p, const TextureBuilder& builder) {
   }
 }
 
-template <class... Ts>
-Texture make_texture(TypeList<Ts...>, const ModelUse& use, TextureBuilder& builder, Diagnostics& diagnostics) {
+Texture make_texture(const ModelUse& use, TextureBuilder& builder, Diagnostics& diagnostics) {
   Texture texture(ConstantTexture{Spectrum(0.5f)});  // of an unknown model, which has been reported
-  const auto make = [&](const auto* none) {
-    using T = std::remove_const_t<std::remove_pointer_t<decltype(none)>>;
-    if (use.model != T::decl().name) return;
-    const ParamReader params(T::decl(), use, diagnostics);
-    check_kind<T>(params, builder);
-    texture = Texture(T::create(params, builder));
-  };
-  (make(static_cast<const Ts*>(nullptr)), ...);
+  with_model(Textures{}, use, diagnostics, [&]<class T>(std::type_identity<T>, const ParamReader& p) {
+    check_kind<T>(p, builder);
+    texture = Texture(T::create(p, builder));
+  });
   return texture;
 }
 
@@ -102,7 +69,7 @@ void TextureBuilder::add(const std::string& name, bool is_float, const ModelUse&
                          Diagnostics& diagnostics) {
   is_float_ = is_float;
   to_world_ = to_world;
-  const Texture texture = make_texture(Textures{}, use, *this, diagnostics);
+  const Texture texture = make_texture(use, *this, diagnostics);
   is_float_ = false;
   names_[{name, is_float}] = static_cast<int32_t>(table_.textures.size());
   table_.textures.push_back(texture);
