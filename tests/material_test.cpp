@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bsdfs/conductor.h"
-#include "bsdfs/dielectric.h"
-#include "bsdfs/lambert.h"
+#include "bsdfs/bsdf_list.h"
 #include "core/warp.h"
 #include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
@@ -41,7 +39,7 @@ const Vec3 kUp{0, 0, 1};
 TEST(ConductorMaterial, ReflectanceAtNormalIncidence) {
   for (const double r : {0.0, 1e-4, 0.1, 0.5, 0.9, 0.99, 1.0}) {
     const Bsdf b = closure(use_of("conductor", {rgb("reflectance", r, r / 2, 0)}));
-    EXPECT_TRUE(b.is_delta_only());
+    EXPECT_FALSE(b.has_smooth_lobe());
     EXPECT_NEAR(b.albedo(kUp)[0], std::min(r, 0.9999), 1e-6);
     EXPECT_NEAR(b.albedo(kUp)[1], r / 2, 1e-6);
     EXPECT_NEAR(b.albedo(kUp)[2], 0, 1e-6);
@@ -66,16 +64,16 @@ TEST(ConductorMaterial, RoughnessAndItsRemapping) {
     return a.eval_cos(wo, wi, TransportMode::kRadiance, rng)[0] == b.eval_cos(wo, wi, TransportMode::kRadiance, rng)[0];
   };
   const Bsdf remapped = closure(use_of("conductor", {number("roughness", 0.25)}));
-  EXPECT_FALSE(remapped.is_delta_only());
+  EXPECT_TRUE(remapped.has_smooth_lobe());
   EXPECT_TRUE(
       same(remapped, closure(use_of("conductor", {number("roughness", 0.5), boolean("remaproughness", false)}))));
   const Bsdf along_u = closure(use_of("conductor", {number("roughness", 0.25), number("uroughness", 0.04)}));
   EXPECT_TRUE(same(along_u, closure(use_of("conductor", {number("uroughness", 0.04), number("vroughness", 0.25)}))));
   EXPECT_FALSE(same(along_u, closure(use_of("conductor", {number("uroughness", 0.25), number("vroughness", 0.04)}))));
-  EXPECT_TRUE(closure(use_of("conductor", {number("roughness", 9e-7)})).is_delta_only());  // alpha 9.5e-4
-  EXPECT_FALSE(closure(use_of("conductor", {number("roughness", 1.1e-6)})).is_delta_only());
-  EXPECT_TRUE(
-      closure(use_of("conductor", {number("roughness", 9e-4), boolean("remaproughness", false)})).is_delta_only());
+  EXPECT_FALSE(closure(use_of("conductor", {number("roughness", 9e-7)})).has_smooth_lobe());  // alpha 9.5e-4
+  EXPECT_TRUE(closure(use_of("conductor", {number("roughness", 1.1e-6)})).has_smooth_lobe());
+  EXPECT_FALSE(
+      closure(use_of("conductor", {number("roughness", 9e-4), boolean("remaproughness", false)})).has_smooth_lobe());
 }
 
 TEST(ConductorMaterial, EitherReflectanceOrIndices) {

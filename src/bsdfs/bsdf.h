@@ -52,7 +52,7 @@ struct BsdfSample {
 class Bsdf {
  public:
   Bsdf() = default;
-  // Holds a closure of a type in the list of bsdf.cpp.
+  // Holds a closure of a type in the list (bsdfs/bsdf_list.h).
   template <class T>
   explicit Bsdf(const T& closure);
 
@@ -73,7 +73,8 @@ class Bsdf {
   uint32_t kind() const { return storage_.tag; }
   static uint32_t kind_count();
 
-  bool is_delta_only() const { return (lobes() & (kDiffuse | kGlossy)) == 0; }
+  // Whether any lobe has a finite density, so that eval_cos() can be other than 0.
+  bool has_smooth_lobe() const { return (lobes() & (kDiffuse | kGlossy)) != 0; }
 
  private:
   TaggedStorage<128> storage_;

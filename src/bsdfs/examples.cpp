@@ -2,14 +2,7 @@
 
 #include <vector>
 
-#include "bsdfs/conductor.h"
-#include "bsdfs/dielectric.h"
-#include "bsdfs/diffuse_transmission.h"
-#include "bsdfs/energy.h"
-#include "bsdfs/lambert.h"
-#include "bsdfs/layered.h"
-#include "bsdfs/rough_dielectric.h"
-#include "bsdfs/thin_dielectric.h"
+#include "bsdfs/bsdf_list.h"
 
 namespace etd {
 

@@ -38,7 +38,7 @@ class PathFeatures {
   }
   void shade(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, PixelSample& out) {
     const Bsdf& bsdf = scatter.bsdf();
-    if (!pending_ || (bsdf.is_delta_only() && (bsdf.lobes() & kDelta))) return;
+    if (!pending_ || (!bsdf.has_smooth_lobe() && (bsdf.lobes() & kDelta))) return;
     out.albedo = scatter.albedo(wo);
     out.normal = scatter.visible_normal(wo);
     out.position = point.p - Point3();

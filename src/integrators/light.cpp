@@ -135,7 +135,7 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
   };
   // Light that goes straight to the camera.
   const auto at_vertex = [&](const LightPathVertex& v) {
-    if (v.scatter.bsdf().is_delta_only()) return true;
+    if (!v.scatter.bsdf().has_smooth_lobe()) return true;
     sampler.set_dimension(v.dimension);
     if (const auto c = join(v.point, v.ray.time))
       splat(v.point, *c, v.ray, v.depth,

@@ -205,7 +205,7 @@ void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) 
     sampler.start(kPhotonStream + (number >> 32), i.replicate, static_cast<uint32_t>(number));
     const auto at_vertex = [&](const LightPathVertex& v) {
       const float cosine = std::abs(dot(v.wo(), v.point.ng));
-      if (v.scatter.bsdf().is_delta_only() || (v.depth == 1 && !settings_.direct_photons) || !(cosine > 0.0f))
+      if (!v.scatter.bsdf().has_smooth_lobe() || (v.depth == 1 && !settings_.direct_photons) || !(cosine > 0.0f))
         return true;
       const Spectrum flux = v.flux * (1.0f / cosine);
       if (is_finite(flux) && !is_black(flux))
@@ -269,7 +269,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     features.shade(point, scatter, wo, out);
     if (depth == settings_.max_depth) break;
 
-    if (!bsdf.is_delta_only()) {
+    if (bsdf.has_smooth_lobe()) {
       if (!settings_.direct_photons) {
         sampler.set_dimension(dimension + kLightChoice);
         add(depth + 1, next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder));

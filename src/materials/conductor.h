@@ -1,8 +1,7 @@
 // Metals, smooth or rough.
 #pragma once
 
-#include "bsdfs/conductor.h"
-#include "bsdfs/energy.h"
+#include "bsdfs/bsdf_list.h"
 #include "bsdfs/roughness.h"
 #include "materials/material.h"
 #include "materials/parameters.h"

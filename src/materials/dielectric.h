@@ -1,9 +1,7 @@
 // Clear glass and other insulators, smooth or frosted.
 #pragma once
 
-#include "bsdfs/dielectric.h"
-#include "bsdfs/energy.h"
-#include "bsdfs/rough_dielectric.h"
+#include "bsdfs/bsdf_list.h"
 #include "bsdfs/roughness.h"
 #include "materials/material.h"
 #include "materials/parameters.h"

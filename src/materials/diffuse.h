@@ -1,7 +1,7 @@
 // Matte surfaces.
 #pragma once
 
-#include "bsdfs/lambert.h"
+#include "bsdfs/bsdf_list.h"
 #include "materials/material.h"
 #include "materials/parameters.h"
 

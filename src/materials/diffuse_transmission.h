@@ -1,7 +1,7 @@
 // Paper, leaves, lampshades: thin sheets that scatter light to both of their sides.
 #pragma once
 
-#include "bsdfs/diffuse_transmission.h"
+#include "bsdfs/bsdf_list.h"
 #include "materials/material.h"
 #include "materials/parameters.h"
 

@@ -1,7 +1,7 @@
 // Window panes: both surfaces of a thin sheet in one.
 #pragma once
 
-#include "bsdfs/thin_dielectric.h"
+#include "bsdfs/bsdf_list.h"
 #include "materials/material.h"
 #include "materials/parameters.h"
 

@@ -19,7 +19,7 @@ bool is_smooth(const Material& material, const Scene& scene) {
     at.uv = {range * rng.next_float(), range * rng.next_float()};
     at.p = {range * rng.next_float(), range * rng.next_float(), range * rng.next_float()};
     at.n = {0, 0, 1};
-    if (!material.closure(at, scene.textures, {}).is_delta_only()) return false;
+    if (material.closure(at, scene.textures, {}).has_smooth_lobe()) return false;
   }
   return true;
 }
