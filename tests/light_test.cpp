@@ -8,8 +8,7 @@
 #include "core/hash.h"
 #include "core/warp.h"
 #include "light_sampling/light_sampler.h"
-#include "lights/constant_infinite.h"
-#include "lights/diffuse_area.h"
+#include "lights/light_list.h"
 
 namespace etd {
 namespace {

@@ -11,6 +11,7 @@ namespace etd {
 struct ConstantInfiniteLight {
   Spectrum radiance;
 
+  static const ModelDecl& decl() { return infinite_decl(); }
   static std::optional<ConstantInfiniteLight> create(const ParamReader& p, const LightContext&) {
     const Spectrum radiance = emission_value(p, "L");
     return ConstantInfiniteLight{radiance * emission_scale(p, "illuminance", radiance * kPi)};

@@ -41,6 +41,7 @@ struct DiffuseAreaLight {
   Surface surface;
   Spectrum mean;  // of the radiance over the surface
 
+  static const ModelDecl& decl() { return diffuse_area_decl(); }
   // `points`: along each side of the square of samples from which the mean of an image is taken.
   DiffuseAreaLight(const AreaEmission& e, const Surface& s, int points = 1)
       : emission(e), surface(s), mean(mean_radiance(e, s, points)) {}

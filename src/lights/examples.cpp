@@ -3,15 +3,7 @@
 #include <array>
 
 #include "core/hash.h"
-#include "lights/constant_infinite.h"
-#include "lights/diffuse_area.h"
-#include "lights/distant.h"
-#include "lights/goniometric.h"
-#include "lights/image_infinite.h"
-#include "lights/point.h"
-#include "lights/portal_infinite.h"
-#include "lights/projection.h"
-#include "lights/spot.h"
+#include "lights/light_list.h"
 
 namespace etd {
 

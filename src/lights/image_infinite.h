@@ -11,6 +11,8 @@ struct ImageInfiniteLight {
   Frame axes;  // of the map, in the world
   float scale = 1;
 
+  static const ModelDecl& decl() { return infinite_decl(); }
+  static bool is_meant(const ParamReader& p) { return p.given("filename") != nullptr; }
   static std::optional<ImageInfiniteLight> create(const ParamReader& p, const LightContext& context) {
     reject_radiance_beside_file(p);
     const std::optional<Frame> axes = light_axes(context.to_world, p);

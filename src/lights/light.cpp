@@ -1,31 +1,19 @@
-// The list of lights and their dispatch. To add one: its header, its name in the lists, its constructor line.
 #include "lights/light.h"
 
 #include "core/warp.h"
-#include "lights/constant_infinite.h"
-#include "lights/diffuse_area.h"
-#include "lights/distant.h"
-#include "lights/goniometric.h"
-#include "lights/image_infinite.h"
-#include "lights/point.h"
-#include "lights/portal_infinite.h"
-#include "lights/projection.h"
-#include "lights/spot.h"
+#include "lights/light_list.h"
+#include "params/model_list.h"
 #include "shapes/placement.h"
 
 namespace etd {
 
 namespace {
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
-                        DiffuseAreaLight<PatchSurface>, DiffuseAreaLight<QuadricSurface>, ConstantInfiniteLight,
-                        ImageInfiniteLight, PortalInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
-                        PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
-
-// Infinite lights that are the same wherever they are seen from: what they send to one point they send along all
-// parallel rays.
+// Infinite lights without rays of their own are the same wherever they are seen from: what they send to one point they
+// send along all parallel rays.
 template <class T>
-constexpr bool kSameFromEverywhere = std::is_same_v<T, ConstantInfiniteLight> ||
-                                     std::is_same_v<T, ImageInfiniteLight> || std::is_same_v<T, DistantLight>;
+constexpr bool kSameFromEverywhere = !requires {
+  &T::sample_le;
+};
 
 // The ray that brings the sample's light through a point of a disk that faces it.
 EmissionSample through_disk(const LightSample& s, Vec2 u, const EmissionDisks& disks) {
@@ -43,23 +31,6 @@ std::optional<Placement> placement(const AnimatedTransform* motion, float time) 
   return motion ? std::optional(placement_at(*motion, time)) : std::nullopt;
 }
 }  // namespace
-
-template <class T>
-Light::Light(const T& light) {
-  storage_.store<Lights>(light);
-}
-template Light::Light(const DiffuseAreaLight<TriangleSurface>&);
-template Light::Light(const DiffuseAreaLight<RectangleSurface>&);
-template Light::Light(const DiffuseAreaLight<PatchSurface>&);
-template Light::Light(const DiffuseAreaLight<QuadricSurface>&);
-template Light::Light(const ConstantInfiniteLight&);
-template Light::Light(const ImageInfiniteLight&);
-template Light::Light(const PortalInfiniteLight&);
-template Light::Light(const DistantLight&);
-template Light::Light(const PointLight<IsotropicIntensity>&);
-template Light::Light(const PointLight<SpotIntensity>&);
-template Light::Light(const PointLight<GoniometricIntensity>&);
-template Light::Light(const PointLight<ProjectionIntensity>&);
 
 bool Light::is_infinite() const {
   return dispatch<bool, Lights>(storage_, [](const auto& l) { return l.is_infinite(); });
@@ -131,35 +102,31 @@ Spectrum Light::power() const {
 
 uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }
 
+namespace {
+std::vector<const ModelDecl*> declarations_of(Family family) {
+  std::vector<const ModelDecl*> all = declarations(Lights{});
+  std::erase_if(all, [family](const ModelDecl* decl) { return decl->family != family; });
+  return all;
+}
+}  // namespace
+
 std::span<const ModelDecl* const> light_models() {
-  static const ModelDecl* const all[] = {
-      &infinite_decl(),       &DistantLight::decl(),         &IsotropicIntensity::decl(),
-      &SpotIntensity::decl(), &GoniometricIntensity::decl(), &ProjectionIntensity::decl()};
+  static const std::vector<const ModelDecl*> all = declarations_of(Family::kLight);
   return all;
 }
 
 std::span<const ModelDecl* const> area_light_models() {
-  static const ModelDecl* const all[] = {&diffuse_area_decl()};
+  static const std::vector<const ModelDecl*> all = declarations_of(Family::kAreaLight);
   return all;
 }
 
 std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics) {
-  const auto light = [](const auto& made) { return made ? std::optional(Light(*made)) : std::nullopt; };
-  const auto reader = [&](const ModelDecl& decl) { return ParamReader(decl, use, diagnostics); };
-  if (use.model == "infinite") {
-    const ParamReader p = reader(infinite_decl());
-    if (p.given("portal")) return light(PortalInfiniteLight::create(p, context));
-    return p.given("filename") ? light(ImageInfiniteLight::create(p, context))
-                               : light(ConstantInfiniteLight::create(p, context));
-  }
-  if (use.model == "distant") return light(DistantLight::create(reader(DistantLight::decl()), context));
-  if (use.model == "point") return light(IsotropicIntensity::create(reader(IsotropicIntensity::decl()), context));
-  if (use.model == "spot") return light(SpotIntensity::create(reader(SpotIntensity::decl()), context));
-  if (use.model == "goniometric")
-    return light(GoniometricIntensity::create(reader(GoniometricIntensity::decl()), context));
-  if (use.model == "projection")
-    return light(ProjectionIntensity::create(reader(ProjectionIntensity::decl()), context));
-  return {};
+  std::optional<Light> light;
+  with_model(Lights{}, use, diagnostics, [&]<class T>(std::type_identity<T>, const ParamReader& p) {
+    if constexpr (requires { T::create(p, context); })
+      if (const auto made = T::create(p, context)) light.emplace(*made);
+  });
+  return light;
 }
 
 }  // namespace etd

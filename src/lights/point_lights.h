@@ -16,6 +16,11 @@ struct PointLight {
   Point3 position;
   Intensity emission;
 
+  static const ModelDecl& decl() { return Intensity::decl(); }
+  static std::optional<PointLight> create(const ParamReader& p, const LightContext& context) {
+    return Intensity::create(p, context);
+  }
+
   bool is_infinite() const { return false; }
   bool is_delta() const { return true; }
 

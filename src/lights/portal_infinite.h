@@ -12,7 +12,8 @@ struct PortalInfiniteLight {
   const PortalMap* map;
   float scale = 1;
 
-  // Makes an infinite light with a "portal".
+  static const ModelDecl& decl() { return infinite_decl(); }
+  static bool is_meant(const ParamReader& p) { return p.given("portal") != nullptr; }
   static std::optional<PortalInfiniteLight> create(const ParamReader& p, const LightContext& context);
 
   bool is_infinite() const { return true; }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lights/diffuse_area.h"
+#include "lights/light_list.h"
 #include "scene/check_transform.h"
 #include "scene/place_lights.h"
 #include "scene/registry.h"
