@@ -11,7 +11,7 @@
 #include "core/frame.h"
 #include "core/hash.h"
 #include "core/warp.h"
-#include "shapes/quadric_shapes.h"
+#include "shapes/shape.h"
 
 namespace etd {
 namespace {
@@ -224,8 +224,8 @@ TEST(QuadricLeak, ARayDoesNotMeetWhatItLeaves) {
 }
 
 TEST(QuadricShapes, NothingLeftIsAnError) {
-  const auto problem = [](const ModelDecl& decl, std::vector<std::pair<const char*, double>> values) {
-    ModelUse use{decl.name, {}, {}};
+  const auto problem = [](const char* shape, std::vector<std::pair<const char*, double>> values) {
+    ModelUse use{shape, {}, {}};
     for (const auto& [name, value] : values) {
       Param p;
       p.name = name;
@@ -233,17 +233,16 @@ TEST(QuadricShapes, NothingLeftIsAnError) {
       use.params.push_back(p);
     }
     Diagnostics diagnostics;
-    const bool made = make_quadric_shape({decl, use, diagnostics}).has_value();
+    MeshFiles files;
+    const bool made = make_shape(use, {}, files, diagnostics).has_value();
     EXPECT_EQ(made, !diagnostics.has_errors());
     return made ? std::string() : diagnostics.all()[0].message;
   };
-  EXPECT_EQ(problem(sphere_decl(), {{"zmin", 1}, {"zmax", 3}}),
-            "nothing of the sphere lies between \"zmin\" and \"zmax\"");
-  EXPECT_EQ(problem(cylinder_decl(), {{"zmax", -1}}), "nothing of the cylinder lies between \"zmin\" and \"zmax\"");
-  EXPECT_EQ(problem(disk_decl(), {{"innerradius", 2}}),
-            "nothing of the disk lies between \"radius\" and \"innerradius\"");
-  EXPECT_EQ(problem(sphere_decl(), {{"zmin", -9}, {"zmax", 9}}), "");
-  EXPECT_EQ(problem(cylinder_decl(), {{"zmin", 2}, {"zmax", -2}}), "");
+  EXPECT_EQ(problem("sphere", {{"zmin", 1}, {"zmax", 3}}), "nothing of the sphere lies between \"zmin\" and \"zmax\"");
+  EXPECT_EQ(problem("cylinder", {{"zmax", -1}}), "nothing of the cylinder lies between \"zmin\" and \"zmax\"");
+  EXPECT_EQ(problem("disk", {{"innerradius", 2}}), "nothing of the disk lies between \"radius\" and \"innerradius\"");
+  EXPECT_EQ(problem("sphere", {{"zmin", -9}, {"zmax", 9}}), "");
+  EXPECT_EQ(problem("cylinder", {{"zmin", 2}, {"zmax", -2}}), "");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace etd {
 
-const ModelDecl& trianglemesh_decl() {
+const ModelDecl& TriangleMeshShape::decl() {
   static const ModelDecl d{
       Family::kShape,
       "trianglemesh",
@@ -38,7 +38,7 @@ const ModelDecl& read_mesh_decl() {
   return d;
 }
 
-const ModelDecl& bilinearmesh_decl() {
+const ModelDecl& BilinearMeshShape::decl() {
   static const ModelDecl d{
       Family::kShape,
       "bilinearmesh",
@@ -69,7 +69,7 @@ ParamDecl file_param() {
 
 }  // namespace
 
-const ModelDecl& plymesh_decl() {
+const ModelDecl& PlyMeshShape::decl() {
   static const ModelDecl d{Family::kShape,
                            "plymesh",
                            "A mesh from a PLY file: ascii or binary, polygons of any size, normals, uv.",
@@ -77,7 +77,7 @@ const ModelDecl& plymesh_decl() {
   return d;
 }
 
-const ModelDecl& offmesh_decl() {
+const ModelDecl& OffMeshShape::decl() {
   static const ModelDecl d{Family::kShape,
                            "offmesh",
                            "A mesh from an OFF file: polygons of any size, normals, uv. Not in pbrt-v4.",
@@ -85,7 +85,7 @@ const ModelDecl& offmesh_decl() {
   return d;
 }
 
-const ModelDecl& objmesh_decl() {
+const ModelDecl& ObjMeshShape::decl() {
   static const ModelDecl d{
       Family::kShape,
       "objmesh",
@@ -176,17 +176,33 @@ std::vector<std::array<uint32_t, N>> in_faces(const std::vector<int32_t>& indice
 
 }  // namespace
 
-std::optional<MeshData> make_trianglemesh(const ParamReader& p) {
+ShapeGeometry TriangleMeshShape::create(const ParamReader& p, const ShapeContext&) {
   std::optional<IndexedVertices> read = read_indexed(p, 3, static_cast<size_t>(p.integer("motionsteps")));
   if (!read) return {};
   read->vertices.triangles = in_faces<3>(read->indices);
-  return std::move(read->vertices);
+  return {.mesh = without_unused_vertices(std::move(read->vertices))};
 }
 
-std::optional<PatchData> make_bilinearmesh(const ParamReader& p) {
+ShapeGeometry BilinearMeshShape::create(const ParamReader& p, const ShapeContext&) {
   std::optional<IndexedVertices> read = read_indexed(p, 4);
   if (!read) return {};
-  return PatchData{std::move(read->vertices), in_faces<4>(read->indices)};
+  PatchData data{std::move(read->vertices), in_faces<4>(read->indices)};
+  // Parallelograms are two triangles each, and those are met faster.
+  if (auto mesh = as_triangles(data)) return {.mesh = without_unused_vertices(std::move(*mesh))};
+  drop_unused_vertices(data.vertices, corners_of(data.patches));
+  return {.patches = std::move(data)};
+}
+
+ShapeGeometry PlyMeshShape::create(const ParamReader& p, const ShapeContext& context) {
+  return {.mesh = context.files.mesh(p, context.folder, read_ply)};
+}
+
+ShapeGeometry OffMeshShape::create(const ParamReader& p, const ShapeContext& context) {
+  return {.mesh = context.files.mesh(p, context.folder, read_off)};
+}
+
+ShapeGeometry ObjMeshShape::create(const ParamReader& p, const ShapeContext& context) {
+  return {.mesh = context.files.mesh(p, context.folder, read_obj_mesh)};
 }
 
 std::optional<MeshData> as_triangles(const PatchData& data) {
@@ -226,19 +242,15 @@ std::shared_ptr<const MeshData> without_unused_vertices(MeshData mesh) {
   return std::make_shared<const MeshData>(std::move(mesh));
 }
 
-std::shared_ptr<const MeshData> MeshFiles::mesh(const ParamReader& p, const std::filesystem::path& folder) {
+std::shared_ptr<const MeshData> MeshFiles::mesh(const ParamReader& p, const std::filesystem::path& folder, Read read) {
   const Param* file = p.given("filename");
   if (!file) return {};
   const std::filesystem::path path = folder / file->strings[0];
-  const std::string& model = p.decl().name;
   std::error_code failed;
   const std::filesystem::path place = std::filesystem::weakly_canonical(path, failed);
-  const auto [known, is_new] = meshes_.try_emplace({model, failed ? path.string() : place.string()});
+  const auto [known, is_new] = meshes_.try_emplace({p.decl().name, failed ? path.string() : place.string()});
   if (!is_new) return known->second;
-  const Limits& limits = p.diagnostics().limits();
-  MeshResult result = model == "plymesh"   ? read_ply(path, limits)
-                      : model == "offmesh" ? read_off(path, limits)
-                                           : read_obj_mesh(path, limits);
+  MeshResult result = read(path, p.diagnostics().limits());
   report_mesh_problems(result.problems, result.notes, file->value_loc, folder, file->strings[0], p.diagnostics());
   if (result.mesh) known->second = without_unused_vertices(std::move(*result.mesh));
   return known->second;

@@ -10,25 +10,34 @@
 
 #include "io/mesh.h"
 #include "params/declaration.h"
+#include "shapes/shape_geometry.h"
 
 namespace etd {
 
-const ModelDecl& trianglemesh_decl();
-const ModelDecl& read_mesh_decl();  // a trianglemesh whose vertices a reader has taken from a file already
-const ModelDecl& bilinearmesh_decl();
-const ModelDecl& plymesh_decl();
-const ModelDecl& offmesh_decl();
-const ModelDecl& objmesh_decl();
-
-// Bilinear patches over vertices; the triangles of `vertices` are unused.
-struct PatchData {
-  MeshData vertices;
-  std::vector<std::array<uint32_t, 4>> patches;
+struct TriangleMeshShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
+struct BilinearMeshShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
+struct PlyMeshShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
+struct OffMeshShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
+struct ObjMeshShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
 };
 
-// Both take checked uses; nothing comes back when there are problems, which are reported.
-std::optional<MeshData> make_trianglemesh(const ParamReader& p);
-std::optional<PatchData> make_bilinearmesh(const ParamReader& p);
+// A trianglemesh whose vertices a reader has taken from a file already.
+const ModelDecl& read_mesh_decl();
+
 // The same surface as two triangles for each patch, if all are parallelograms with texture coordinates to match and one
 // normal each.
 std::optional<MeshData> as_triangles(const PatchData& data);
@@ -37,9 +46,10 @@ std::shared_ptr<const MeshData> without_unused_vertices(MeshData mesh);
 // The meshes of files, each of which is read once however many shapes name it.
 class MeshFiles {
  public:
-  // The mesh of the file that "filename" names, in the format of the model; null when it can't be read. What is wrong
-  // with a file and what is left out of it is reported for the first shape that names it.
-  std::shared_ptr<const MeshData> mesh(const ParamReader& p, const std::filesystem::path& folder);
+  using Read = MeshResult (*)(const std::filesystem::path& path, const Limits& limits);
+  // The mesh of the file that "filename" names; null when it can't be read. What is wrong with a file and what is left
+  // out of it is reported for the first shape that names it.
+  std::shared_ptr<const MeshData> mesh(const ParamReader& p, const std::filesystem::path& folder, Read read);
 
  private:
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const MeshData>> meshes_;  // by model and place

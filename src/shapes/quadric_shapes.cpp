@@ -33,34 +33,9 @@ float phi_max_of(const ParamReader& p) {
   return degrees == 360 ? 2 * kPi : static_cast<float>(degrees * (M_PI / 180));
 }
 
-std::optional<QuadricShape> make_sphere(const ParamReader& p) {
-  const double radius = p.number("radius");
-  const double a = p.given("zmin") ? p.number("zmin") : -radius, b = p.given("zmax") ? p.number("zmax") : radius;
-  // What lies beyond the poles cuts nothing off.
-  const auto in_unit = [radius](double z) { return static_cast<float>(std::min(1.0, std::max(-1.0, z / radius))); };
-  const QuadricPart part{QuadricPart::Kind::kSphere, in_unit(std::min(a, b)), in_unit(std::max(a, b)), phi_max_of(p)};
-  if (part.lo >= part.hi) return report_empty(p, "zmin", "zmax"), std::nullopt;
-  return QuadricShape{Transform::scale({radius, radius, radius}), part};
-}
-
-std::optional<QuadricShape> make_cylinder(const ParamReader& p) {
-  const double radius = p.number("radius"), a = p.number("zmin"), b = p.number("zmax");
-  if (a == b) return report_empty(p, "zmin", "zmax"), std::nullopt;
-  const double lo = std::min(a, b), height = std::max(a, b) - lo;
-  return QuadricShape{Transform::translate({0, 0, lo}) * Transform::scale({radius, radius, height}),
-                      {QuadricPart::Kind::kCylinder, 0, 1, phi_max_of(p)}};
-}
-
-std::optional<QuadricShape> make_disk(const ParamReader& p) {
-  const double radius = p.number("radius"), inner = p.number("innerradius") / radius;
-  if (static_cast<float>(inner) >= 1.0f) return report_empty(p, "radius", "innerradius"), std::nullopt;
-  return QuadricShape{Transform::translate({0, 0, p.number("height")}) * Transform::scale({radius, radius, radius}),
-                      {QuadricPart::Kind::kDisk, static_cast<float>(inner), 1, phi_max_of(p)}};
-}
-
 }  // namespace
 
-const ModelDecl& sphere_decl() {
+const ModelDecl& SphereShape::decl() {
   static const ModelDecl d{
       Family::kShape,
       "sphere",
@@ -73,7 +48,17 @@ const ModelDecl& sphere_decl() {
   return d;
 }
 
-const ModelDecl& cylinder_decl() {
+ShapeGeometry SphereShape::create(const ParamReader& p, const ShapeContext&) {
+  const double radius = p.number("radius");
+  const double a = p.given("zmin") ? p.number("zmin") : -radius, b = p.given("zmax") ? p.number("zmax") : radius;
+  // What lies beyond the poles cuts nothing off.
+  const auto in_unit = [radius](double z) { return static_cast<float>(std::min(1.0, std::max(-1.0, z / radius))); };
+  const QuadricPart part{QuadricPart::Kind::kSphere, in_unit(std::min(a, b)), in_unit(std::max(a, b)), phi_max_of(p)};
+  if (part.lo >= part.hi) return report_empty(p, "zmin", "zmax"), ShapeGeometry();
+  return {.quadric = QuadricShape{Transform::scale({radius, radius, radius}), part}};
+}
+
+const ModelDecl& CylinderShape::decl() {
   static const ModelDecl d{Family::kShape,
                            "cylinder",
                            "A cylinder around z without its ends, whose normals point outward.",
@@ -85,7 +70,15 @@ const ModelDecl& cylinder_decl() {
   return d;
 }
 
-const ModelDecl& disk_decl() {
+ShapeGeometry CylinderShape::create(const ParamReader& p, const ShapeContext&) {
+  const double radius = p.number("radius"), a = p.number("zmin"), b = p.number("zmax");
+  if (a == b) return report_empty(p, "zmin", "zmax"), ShapeGeometry();
+  const double lo = std::min(a, b), height = std::max(a, b) - lo;
+  return {.quadric = QuadricShape{Transform::translate({0, 0, lo}) * Transform::scale({radius, radius, height}),
+                                  {QuadricPart::Kind::kCylinder, 0, 1, phi_max_of(p)}}};
+}
+
+const ModelDecl& DiskShape::decl() {
   static const ModelDecl d{
       Family::kShape,
       "disk",
@@ -98,9 +91,12 @@ const ModelDecl& disk_decl() {
   return d;
 }
 
-std::optional<QuadricShape> make_quadric_shape(const ParamReader& p) {
-  if (p.decl().name == "sphere") return make_sphere(p);
-  return p.decl().name == "cylinder" ? make_cylinder(p) : make_disk(p);
+ShapeGeometry DiskShape::create(const ParamReader& p, const ShapeContext&) {
+  const double radius = p.number("radius"), inner = p.number("innerradius") / radius;
+  if (static_cast<float>(inner) >= 1.0f) return report_empty(p, "radius", "innerradius"), ShapeGeometry();
+  return {.quadric = QuadricShape{
+              Transform::translate({0, 0, p.number("height")}) * Transform::scale({radius, radius, radius}),
+              {QuadricPart::Kind::kDisk, static_cast<float>(inner), 1, phi_max_of(p)}}};
 }
 
 }  // namespace etd

@@ -1,22 +1,23 @@
-// Shapes that are quadrics: spheres, cylinders and disks as scenes name them.
+// Shapes that are quadrics: spheres, cylinders and disks as scenes name them. Nothing is made of them, which is
+// reported, when nothing is left of the surface.
 #pragma once
 
 #include "params/declaration.h"
-#include "shapes/quadric.h"
+#include "shapes/shape_geometry.h"
 
 namespace etd {
 
-// A quadric before its transform.
-struct QuadricShape {
-  Transform unit_to_object;
-  QuadricPart part;
+struct SphereShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
 };
-
-const ModelDecl& sphere_decl();
-const ModelDecl& cylinder_decl();
-const ModelDecl& disk_decl();
-
-// Makes the shape of a checked use of one of them; nothing, and reported, when nothing is left of the surface.
-std::optional<QuadricShape> make_quadric_shape(const ParamReader& p);
+struct CylinderShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
+struct DiskShape {
+  static const ModelDecl& decl();
+  static ShapeGeometry create(const ParamReader& p, const ShapeContext& context);
+};
 
 }  // namespace etd

@@ -2,23 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 
-#include "io/mesh.h"
 #include "params/declaration.h"
 #include "shapes/mesh_shapes.h"
-#include "shapes/quadric_shapes.h"
+#include "shapes/shape_geometry.h"
 
 namespace etd {
-
-// What a shape is before its transform: one of these.
-struct ShapeGeometry {
-  std::shared_ptr<const MeshData> mesh;  // that of a file is the same for all shapes that name it
-  std::optional<PatchData> patches;
-  std::optional<QuadricShape> quadric;
-};
 
 std::span<const ModelDecl* const> shape_models();
 // Makes the shape of a checked use; problems are reported, and nothing comes back when there are any. `folder` is where

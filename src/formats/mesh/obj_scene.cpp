@@ -209,7 +209,7 @@ std::vector<ShapeDesc> add_obj(const ObjFile& from, const std::filesystem::path&
 
 std::vector<ShapeDesc> expand_objmesh(ShapeDesc shape, SceneDescription& scene, ObjFiles& files,
                                       Diagnostics& diagnostics) {
-  const ParamReader p(objmesh_decl(), shape.use, diagnostics);
+  const ParamReader p(ObjMeshShape::decl(), shape.use, diagnostics);
   const Param* file = p.given("filename");
   if (!file || !p.boolean("materials")) return {std::move(shape)};
   const ObjFiles::Found found = files.read(*file, scene.folder, diagnostics);
