@@ -1,6 +1,6 @@
 // Closed unions of small values: what runs per ray is a value, not an interface. A family's class holds an aligned byte
-// buffer and a tag; its one .cpp names the type list and dispatches through the switch below, so that a new model does
-// not recompile the world. (std::visit turns into indirect calls beyond eleven alternatives.)
+// buffer and a tag; a header beside it lists the types, and its one .cpp dispatches through the switch below, so that a
+// new model does not recompile the world. (std::visit turns into indirect calls beyond eleven alternatives.)
 #pragma once
 
 #include <algorithm>
