@@ -231,8 +231,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && !bsdf.is_delta_only()) {
       sampler.set_dimension(dimension + kLightChoice);
-      const Spectrum light =
-          next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder);
+      const Spectrum light = next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder);
       add(LightFoundBy::kLightSampling, depth + 1, beta * light);
     }
 
