@@ -298,7 +298,7 @@ TEST(ImageKinds, TexturesTellWhatWasNotTakenAsItStands) {
   for (const size_t limit : {size_t{1} << 30, size_t{0}, size_t{0}}) {
     Diagnostics diagnostics;
     TextureTable table;
-    ImageStore store(table, folder.path());
+    ImageStore store(table, folder.path(), {});
     Param a, b;
     a.strings = {"a.pfm"}, b.strings = {"b.exr"};
     const int32_t nans = store.add(a, "", "", ImageWrap::kRepeat, diagnostics);

@@ -178,10 +178,15 @@ TEST_P(SlowModelScenes, AreOtherPicturesWithoutTheirParameter) {
   Diagnostics diagnostics;
   const SceneDescription scene = read_pbrt_text(std::regex_replace(slurp(shown.file), parameter, ""), "test",
                                                 shown.file.parent_path(), diagnostics);
-  ASSERT_TRUE(!diagnostics.has_errors() && prepare_render(scene, {}, diagnostics)) << diagnostics.format_all();
+  const bool compiles = !diagnostics.has_errors() && prepare_render(scene, {}, diagnostics);
+  if (shown.parameter == "indices") {  // meshes of several faces cannot do without
+    EXPECT_FALSE(compiles);
+    return;
+  }
+  ASSERT_TRUE(compiles) << diagnostics.format_all();
   const std::vector<RegionMeans> stored = read_means(expected_file(shown));
   const std::vector<RegionMeans> without = render_means(scene, "mis", kStoredSpp, 7);
-  if (without.size() != stored.size()) return;
+  if (without.size() != stored.size()) return;  // of another size
   double smallest = 1;
   for (size_t i = 0; i < without.size(); ++i)
     for (size_t c = 0; c < 3; ++c)
