@@ -129,23 +129,23 @@ TEST(Duration, IsReadAsPeopleWriteIt) {
 }
 
 TEST(Settings, CropWindowsAreAsInPbrt) {
-  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.25, 0.75, 0, 0.5})})).crop, (PixelBounds{3, 0, 8, 5}));
-  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.75, 0.25, 0.5, 0})})).crop, (PixelBounds{3, 0, 8, 5}));
-  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 20, 1, 4})})).crop, (PixelBounds{2, 1, 10, 4}));
+  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.25, 0.75, 0, 0.5})})).film.crop, (PixelBounds{3, 0, 8, 5}));
+  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0.75, 0.25, 0.5, 0})})).film.crop, (PixelBounds{3, 0, 8, 5}));
+  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 20, 1, 4})})).film.crop, (PixelBounds{2, 1, 10, 4}));
   Diagnostics diagnostics;
   const SceneDescription both =
       scene_of(10, 10, {floats("cropwindow", {0, 1, 0, 1}), integers("pixelbounds", {2, 3, 1, 4})});
-  EXPECT_EQ(make_settings(both, {}, diagnostics).crop, (PixelBounds{0, 0, 10, 10}));
+  EXPECT_EQ(make_settings(both, {}, diagnostics).film.crop, (PixelBounds{0, 0, 10, 10}));
   EXPECT_EQ(diagnostics.all().size(), 1u);
 }
 
 TEST(Settings, AnotherSizeTakesTheCropAlong) {
   RenderOverrides o;
   o.size = {20, 40};
-  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0, 0.5, 0, 0.5})}), o).crop, (PixelBounds{0, 0, 10, 20}));
-  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 5, 1, 4})}), o).crop, (PixelBounds{4, 4, 10, 16}));
+  EXPECT_EQ(good(scene_of(10, 10, {floats("cropwindow", {0, 0.5, 0, 0.5})}), o).film.crop, (PixelBounds{0, 0, 10, 20}));
+  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 5, 1, 4})}), o).film.crop, (PixelBounds{4, 4, 10, 16}));
   o.crop = PixelBounds{1, 2, 20, 40};
-  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 5, 1, 4})}), o).crop, *o.crop);
+  EXPECT_EQ(good(scene_of(10, 10, {integers("pixelbounds", {2, 5, 1, 4})}), o).film.crop, *o.crop);
 }
 
 TEST(Settings, OverridesOfDeclaredParameters) {

@@ -165,7 +165,8 @@ void check_histograms(const ScatterModel& m, const BsdfBatteryOptions& options, 
     std::array<double, 3> albedo{};
     for (TransportMode mode : {TransportMode::kImportance, TransportMode::kRadiance}) {
       for (Lobe sides : side_choices) {
-        const bool modes_differ = (m.lobes & kTransmission) || m.is_tilted();
+        // What is carried changes values, which both sides together show; single sides change what is sampled.
+        const bool modes_differ = ((m.lobes & kTransmission) || m.is_tilted()) && sides == kBothSides;
         const bool wanted = m.has_smooth() && (mode == TransportMode::kImportance || modes_differ);
         if (!wanted) continue;
         const auto f = check_setting(m, {wo, mode, sides}, options.samples, hash_combine(options.seed, ++run), c);
