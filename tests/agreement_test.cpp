@@ -39,13 +39,13 @@ struct Scene {
   double visible_light = 0.01;  // share of the image that an error of light would have to be to be seen
   bool costly = false;          // its other samplers and roulettes are left to the slow set
 };
-const Scene kScenes[] = {{"conductor_box", 192, 64, 64, 128, 64},
+const Scene kScenes[] = {{"conductor_box", 320, 64, 64, 128, 128},
                          {"textured_room", 320, 96, 128, 64, 0, 96},
                          {"sky_instances", 288, 352, 128, 256, 160, 96, 0.05},
                          {"glass_caustic", 320, 128, 128, 128},
                          {"lamps", 512, 352, 512, 256, 0, 256, 0.03, true},
                          {"moving_lamps", 576, 896, 640, 640, 0, 0, 0.03, true},
-                         {"window_room", 896, 160, 256, 128, 0, 0, 0.03, true},
+                         {"window_room", 1024, 160, 320, 128, 0, 0, 0.03, true},
                          {"bumpy_room", 608, 608, 288, 288, 0, 0, 0.05, true},
                          {"bumpy_glass", 320, 192, 160, 128}};
 
