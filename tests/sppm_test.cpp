@@ -99,6 +99,35 @@ TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
   expect_agreement(scene, repeated_level(kFamilyLevel, 2, film_test_count(16, 16)), films);
 }
 
+// Root of the mean square of the difference, over pixels and channels.
+double rms_difference(const Film& a, const std::vector<float>& b) {
+  const std::vector<float> image = picture(a);
+  double sum = 0;
+  for (size_t i = 0; i < b.size(); ++i) sum += sqr(static_cast<double>(image[i] - b[i]));
+  return std::sqrt(sum / static_cast<double>(b.size()));
+}
+
+// With alpha = 2 / 3 noise falls as N^(-1/3) (Knaus and Zwicker 2011, section 4), and so does bias. So few photons in
+// so small a radius make the noise of photons far larger than that of the paths from the camera, which falls faster.
+TEST_P(StatisticalSppm, DifferenceFallsAsTheCubeRootOfTheIterations) {
+  RenderOverrides o = overrides(2048, 1);
+  o.integrator = "path";
+  o.set = {{"integrator.components", "indirect"}};
+  const std::vector<float> reference = picture(render_agree(GetParam(), o));
+  // Logarithms of the number of iterations and of the difference.
+  std::vector<std::pair<double, double>> points;
+  for (const uint32_t iterations : {16, 64, 256, 1600}) {
+    o = overrides(iterations, 5);
+    o.set = {{"integrator.components", "indirect"},
+             {"integrator.photonsperiteration", "400"},
+             {"integrator.radiusscale", "0.2"}};
+    points.emplace_back(std::log(iterations), std::log(rms_difference(render_agree(GetParam(), o), reference)));
+  }
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto& [a, b] : points) x += a / 4, y += b / 4, xx += a * a / 4, xy += a * b / 4;
+  EXPECT_NEAR((xy - x * y) / (xx - x * x), -1.0 / 3, 0.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm, testing::Values("conductor_box", "glass_caustic"));
 
 }  // namespace

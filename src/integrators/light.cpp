@@ -10,56 +10,19 @@
 namespace etd {
 
 const ModelDecl& LightIntegrator::decl() {
-  static const ModelDecl d{
-      Family::kIntegrator,
-      "light",
-      "Light tracing: paths start at the lights, and each of their vertices is joined to the camera.",
-      {{.name = "maxdepth",
-        .type = ParamType::kInteger,
-        .default_value = 5,
-        .min = 0,
-        .max = 1 << 20,
-        .doc = "Scattering events of the longest path: 0 shows emitters, 1 direct light, 2 one bounce more."},
-       {.name = "components",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "emission", "direct", "indirect"},
-        .doc = "Which part of the light to render."},
-       {.name = "roulettedepth",
-        .type = ParamType::kInteger,
-        .default_value = 2,
-        .min = 1,
-        .max = 1 << 20,
-        .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
-       {.name = "paths",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "from_camera"},
-        .doc =
-            "Which paths to render: all, or those alone that the integrator path finds too. It misses light of points "
-            "and single directions that a mirror or clear glass is the first to scatter."},
-       {.name = "lightsampler",
-        .type = ParamType::kString,
-        .default_value = std::string("power"),
-        .choices = {"power", "uniform"},
-        .doc = "How the light is chosen that a path starts at: by power, or all alike; never changes the mean."}}};
+  static const ModelDecl d =
+      with_params({Family::kIntegrator,
+                   "light",
+                   "Light tracing: paths start at the lights, and each of their vertices is joined to the camera.",
+                   {}},
+                  {transport_params(), {paths_from_lights_param()}});
   return d;
 }
 
 std::unique_ptr<Integrator> LightIntegrator::create(const ParamReader& p, const Scene& scene,
                                                     const IntegratorContext& context) {
-  LightSettings s;
-  const std::string components = p.string("components");
-  const bool all = components == "all";
-  s.emission = all || components == "emission";
-  s.direct = all || components == "direct";
-  s.indirect = all || components == "indirect";
-  s.max_depth = p.integer("maxdepth");
-  // No path is longer than the deepest component that is kept.
-  if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
-  s.roulette_depth = p.integer("roulettedepth");
-  s.from_camera = p.string("paths") == "from_camera";
-  s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
+  LightSettings s{transport_settings(p)};
+  s.from_camera = leaves_out_what_the_camera_misses(p);
   return std::make_unique<LightIntegrator>(scene, s, context);
 }
 

@@ -4,6 +4,7 @@
 
 #include "integrators/camera_splat.h"
 #include "integrators/integrator.h"
+#include "integrators/transport_params.h"
 #include "integrators/variant.h"
 #include "params/declaration.h"
 #include "scene/scene.h"
@@ -14,11 +15,7 @@ namespace etd {
 inline constexpr const char* kUnseenByLightPaths =
     "infinite lights seen directly, and what is seen through or in smooth surfaces, are left out";
 
-struct LightSettings {
-  int max_depth = 5;                                     // scattering events of the longest path
-  bool emission = true, direct = true, indirect = true;  // which components are kept
-  int roulette_depth = 2;                                // first depth at which paths may be ended early
-  LightChoice light_choice = LightChoice::kPower;
+struct LightSettings : TransportSettings {
   bool from_camera = false;  // LightPathSettings::from_camera
 };
 

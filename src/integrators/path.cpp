@@ -15,55 +15,35 @@
 namespace etd {
 
 const ModelDecl& PathIntegrator::decl() {
-  static const ModelDecl d{
-      Family::kIntegrator,
-      "path",
-      "Path tracing from the camera with next-event estimation and multiple importance sampling.",
-      {{.name = "maxdepth",
-        .type = ParamType::kInteger,
-        .default_value = 5,
-        .min = 0,
-        .max = 1 << 20,
-        .doc = "Scattering events of the longest path: 0 shows emitters, 1 direct light, 2 one bounce more."},
-       {.name = "mode",
-        .type = ParamType::kString,
-        .default_value = std::string("mis"),
-        .choices = {"mis", "next_event", "naive"},
-        .doc = "How light is found: by sampling lights and closures together, lights alone, or closures alone."},
-       {.name = "components",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "emission", "direct", "indirect"},
-        .doc = "Which part of the light to render."},
-       {.name = "roulettedepth",
-        .type = ParamType::kInteger,
-        .default_value = 2,
-        .min = 1,
-        .max = 1 << 20,
-        .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
-       {.name = "misheuristic",
-        .type = ParamType::kString,
-        .default_value = std::string("power"),
-        .choices = {"power", "balance", "maximum", "uniform"},
-        .doc = "How mode mis weights the two ways to find light; never changes the mean."},
-       {.name = "lightsampler",
-        .type = ParamType::kString,
-        .default_value = std::string("power"),
-        .choices = {"power", "uniform"},
-        .doc = "How lights are chosen for sampling: by their power, or all alike; never changes the mean."},
-       {.name = "shadingnormals",
-        .type = ParamType::kString,
-        .default_value = std::string("exact"),
-        .choices = {"exact", "bent"},
-        .doc = "Shading normals as they are, or bent towards the viewer where a mirror would show the inside of the "
-               "surface, which is black."},
-       {.name = "paths",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "from_lights"},
-        .doc = "Which paths to render: all, or those alone that the integrator light finds too. It misses infinite "
-               "lights seen directly, and surfaces that reflect like mirrors or refract like glass between the camera "
-               "and what it sees."}}};
+  static const ModelDecl d = with_params(
+      {Family::kIntegrator,
+       "path",
+       "Path tracing from the camera with next-event estimation and multiple importance sampling.",
+       {}},
+      {transport_params(),
+       {{.name = "mode",
+         .type = ParamType::kString,
+         .default_value = std::string("mis"),
+         .choices = {"mis", "next_event", "naive"},
+         .doc = "How light is found: by sampling lights and closures together, lights alone, or closures alone."},
+        {.name = "misheuristic",
+         .type = ParamType::kString,
+         .default_value = std::string("power"),
+         .choices = {"power", "balance", "maximum", "uniform"},
+         .doc = "How mode mis weights the two ways to find light; never changes the mean."},
+        {.name = "shadingnormals",
+         .type = ParamType::kString,
+         .default_value = std::string("exact"),
+         .choices = {"exact", "bent"},
+         .doc = "Shading normals as they are, or bent towards the viewer where a mirror would show the inside of the "
+                "surface, which is black."},
+        {.name = "paths",
+         .type = ParamType::kString,
+         .default_value = std::string("all"),
+         .choices = {"all", "from_lights"},
+         .doc = "Which paths to render: all, or those alone that the integrator light finds too. It misses infinite "
+                "lights seen directly, and surfaces that reflect like mirrors or refract like glass between the camera "
+                "and what it sees."}}});
   return d;
 }
 
@@ -76,19 +56,10 @@ bool has_delta_lights(const Scene& scene) {
 }  // namespace
 
 PathSettings PathIntegrator::settings(const ParamReader& p) {
-  PathSettings s;
-  const std::string mode = p.string("mode"), components = p.string("components");
+  PathSettings s{transport_settings(p)};
+  const std::string mode = p.string("mode");
   s.mode = mode == "naive" ? PathMode::kNaive : mode == "next_event" ? PathMode::kNextEvent : PathMode::kMis;
-  const bool all = components == "all";
-  s.emission = all || components == "emission";
-  s.direct = all || components == "direct";
-  s.indirect = all || components == "indirect";
-  s.max_depth = p.integer("maxdepth");
-  // No path is longer than the deepest component that is kept.
-  if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
-  s.roulette_depth = p.integer("roulettedepth");
   s.heuristic = mis_heuristic(p.string("misheuristic"));
-  s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
   s.bent_normals = p.string("shadingnormals") == "bent";
   s.from_lights = p.string("paths") == "from_lights";
   return s;

@@ -3,6 +3,7 @@
 
 #include "core/mis.h"
 #include "integrators/pixel_integrator.h"
+#include "integrators/transport_params.h"
 #include "integrators/variant.h"
 #include "params/declaration.h"
 #include "scene/scene.h"
@@ -16,13 +17,9 @@ enum class PathMode : uint8_t {
   kMis,        // both, weighted (mis.h)
 };
 
-struct PathSettings {
-  int max_depth = 5;  // scattering events of the longest path
+struct PathSettings : TransportSettings {
   PathMode mode = PathMode::kMis;
-  bool emission = true, direct = true, indirect = true;  // which components are kept
-  int roulette_depth = 2;                                // first depth at which paths may be ended early
   MisHeuristic heuristic = MisHeuristic::kPower;
-  LightChoice light_choice = LightChoice::kPower;
   bool bent_normals = false;  // materials/bent_normal.h
   bool from_lights = false;   // only what paths from lights can bring (light.h)
 };

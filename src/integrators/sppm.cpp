@@ -12,84 +12,54 @@
 
 namespace etd {
 
+namespace {
+
+constexpr int kLongestPath = 1 << 15;  // so many scattering events a photon can count
+
+}  // namespace
+
 const ModelDecl& SppmIntegrator::decl() {
-  static const ModelDecl d{
-      Family::kIntegrator,
-      "sppm",
-      "Stochastic progressive photon mapping: light by photons that are gathered within a radius, which shrinks from "
-      "iteration to iteration.",
-      {{.name = "maxdepth",
-        .type = ParamType::kInteger,
-        .default_value = 5,
-        .min = 0,
-        .max = 1 << 15,
-        .doc = "Scattering events of the longest path: 0 shows emitters, 1 direct light, 2 one bounce more."},
-       {.name = "components",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "emission", "direct", "indirect"},
-        .doc = "Which part of the light to render."},
-       {.name = "radius",
-        .default_value = 0.0,
-        .min = 0,
-        .unit = "m",
-        .doc =
-            "Radius of the first iteration; 0: about as wide as a pixel, or so wide that some ten photons are found."},
-       {.name = "radiusscale",
-        .default_value = 1.0,
-        .min = 0,
-        .above_min = true,
-        .doc = "Factor on the radius, with whose square the bias goes: two renders tell how large it is."},
-       {.name = "photonsperiteration",
-        .type = ParamType::kInteger,
-        .default_value = -1,
-        .min = -1,
-        .max = 1 << 26,
-        .doc = "Paths from lights in each iteration; -1: as many as the full image has pixels."},
-       {.name = "directlight",
-        .type = ParamType::kString,
-        .default_value = std::string("sampled"),
-        .choices = {"sampled", "photons"},
-        .doc = "How direct light is found: by sampling lights, or by photons as all other light."},
-       {.name = "roulettedepth",
-        .type = ParamType::kInteger,
-        .default_value = 2,
-        .min = 1,
-        .max = 1 << 15,
-        .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
-       {.name = "paths",
-        .type = ParamType::kString,
-        .default_value = std::string("all"),
-        .choices = {"all", "from_camera"},
-        .doc =
-            "Which paths to render: all, or those alone that the integrator path finds too. It misses light of points "
-            "and single directions that a mirror or clear glass is the first to scatter."},
-       {.name = "lightsampler",
-        .type = ParamType::kString,
-        .default_value = std::string("power"),
-        .choices = {"power", "uniform"},
-        .doc = "How lights are chosen: by power, or all alike; never changes the mean."}}};
+  static const ModelDecl d = with_params(
+      {Family::kIntegrator,
+       "sppm",
+       "Stochastic progressive photon mapping: light by photons that are gathered within a radius, which shrinks from "
+       "iteration to iteration.",
+       {}},
+      {transport_params(kLongestPath),
+       {{.name = "radius",
+         .default_value = 0.0,
+         .min = 0,
+         .unit = "m",
+         .doc =
+             "Radius of the first iteration; 0: about as wide as a pixel, or so wide that some ten photons are found."},
+        {.name = "radiusscale",
+         .default_value = 1.0,
+         .min = 0,
+         .above_min = true,
+         .doc = "Factor on the radius, with whose square the bias goes: two renders tell how large it is."},
+        {.name = "photonsperiteration",
+         .type = ParamType::kInteger,
+         .default_value = -1,
+         .min = -1,
+         .max = 1 << 26,
+         .doc = "Paths from lights in each iteration; -1: as many as the full image has pixels."},
+        {.name = "directlight",
+         .type = ParamType::kString,
+         .default_value = std::string("sampled"),
+         .choices = {"sampled", "photons"},
+         .doc = "How direct light is found: by sampling lights, or by photons as all other light."},
+        paths_from_lights_param()}});
   return d;
 }
 
 std::unique_ptr<Integrator> SppmIntegrator::create(const ParamReader& p, const Scene& scene,
                                                    const IntegratorContext& context) {
-  SppmSettings s;
-  const std::string components = p.string("components");
-  const bool all = components == "all";
-  s.emission = all || components == "emission";
-  s.direct = all || components == "direct";
-  s.indirect = all || components == "indirect";
-  s.max_depth = p.integer("maxdepth");
-  // No path is longer than the deepest component that is kept.
-  if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
+  SppmSettings s{transport_settings(p)};
   s.radius = p.number("radius");
   s.radius_scale = p.number("radiusscale");
   s.photons = static_cast<uint64_t>(std::max(0, p.integer("photonsperiteration")));
   s.direct_photons = p.string("directlight") == "photons";
-  s.roulette_depth = p.integer("roulettedepth");
-  s.from_camera = p.string("paths") == "from_camera";
-  s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
+  s.from_camera = leaves_out_what_the_camera_misses(p);
   return std::make_unique<SppmIntegrator>(scene, s, context);
 }
 

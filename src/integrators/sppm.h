@@ -5,6 +5,7 @@
 
 #include "integrators/photon_grid.h"
 #include "integrators/pixel_tiles.h"
+#include "integrators/transport_params.h"
 #include "integrators/variant.h"
 #include "materials/surface_scatter.h"
 #include "params/declaration.h"
@@ -12,16 +13,12 @@
 
 namespace etd {
 
-struct SppmSettings {
-  int max_depth = 5;                                     // scattering events of the longest path
-  bool emission = true, direct = true, indirect = true;  // which components are kept
-  double radius = 0;                                     // of the first iteration, in metres; 0: found from the scene
-  double radius_scale = 1;                               // on that
-  uint64_t photons = 0;                                  // paths from lights in each iteration; 0: as many as pixels
-  bool direct_photons = false;                           // photons bring direct light too
-  int roulette_depth = 2;                                // first depth at which paths may be ended early
-  LightChoice light_choice = LightChoice::kPower;
-  bool from_camera = false;  // LightPathSettings::from_camera
+struct SppmSettings : TransportSettings {
+  double radius = 0;            // of the first iteration, in metres; 0: found from the scene
+  double radius_scale = 1;      // on that
+  uint64_t photons = 0;         // paths from lights in each iteration; 0: as many as pixels
+  bool direct_photons = false;  // photons bring direct light too
+  bool from_camera = false;     // LightPathSettings::from_camera
 };
 
 class SppmIntegrator : public Integrator {
