@@ -231,7 +231,7 @@ TEST(LightTracing, RefusesWhatItCannotDo) {
   RenderOverrides o;
   o.set = {{"integrator.mode", "naive"}};
   expect(o, "integrator \"light\" has no parameter \"mode\"");
-  expect(o, "those that have it: path; \"light\" has maxdepth, components, roulettedepth, paths, lightsampler");
+  expect(o, "those that have it: path; \"light\" has maxdepth, components, roulettedepth, lightsampler, paths");
   o = {};
   o.replicates = 2;
   expect(o, "integrator \"light\" needs at least 4 replicates");
