@@ -14,10 +14,9 @@ struct Variant {
   std::string name;
   ParameterTexts set = {};
   std::string sampler = "sobol";
-  std::string integrator = {};  // filled in by integrator_variants()
-  bool samples_lights_alone =
-      false;  // single samples may be as bright as SamplePeaks::light (verify/scene/sample_peaks.h)
-  std::string not_applicable = {};  // why it estimates another image in this scene, if it does
+  std::string integrator = {};        // filled in by integrator_variants()
+  bool samples_lights_alone = false;  // single samples may be as bright as SamplePeaks::light
+  std::string not_applicable = {};    // why it estimates another image in this scene, if it does
   // These parameters halve the radius of a consistent estimator whose bias goes with its square. Both are rendered, and
   // the bias is taken off by extrapolation to a radius of 0.
   ParameterTexts with_half_radius = {};
