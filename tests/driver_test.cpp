@@ -98,7 +98,7 @@ TEST(Driver, ErrorIsInfiniteAfterOneSampleAndZeroForABlackImage) {
 
 TEST(Driver, ReportsProgressInsideAndAfterPasses) {
   std::atomic<bool> stop{false};
-  Recorder recorder(stop, 1e9);
+  RenderRecorder recorder(stop, 1e9);
   Film film(kFilm);
   NoiseIntegrator integrator(kFilm);
   render(integrator, film, {12, 2}, recorder, &stop);
@@ -108,7 +108,7 @@ TEST(Driver, ReportsProgressInsideAndAfterPasses) {
 
 TEST(Driver, StoppingFinishesRunningItemsAndLeavesAValidEstimate) {
   std::atomic<bool> stop{false};
-  Recorder recorder(stop, 5.0);
+  RenderRecorder recorder(stop, 5.0);
   Film film(kFilm);
   NoiseIntegrator integrator(kFilm, 4);
   const RenderResult result = render(integrator, film, {1000, 2}, recorder, &stop);

@@ -108,7 +108,7 @@ TEST(Phases, APassThatMayNotBeCutIsFinished) {
     InPhases integrator(false, may_be_cut);
     Film film(row_film(2));
     std::atomic<bool> stop{false};
-    Recorder recorder(stop, 3);  // in the midst of the second pass
+    RenderRecorder recorder(stop, 3);  // in the midst of the second pass
     const RenderResult result = render(integrator, film, {.spp = 64, .threads = 2}, recorder, &stop);
     EXPECT_EQ(result.stopped_by, StoppedBy::kInterrupt);
     EXPECT_EQ(result.unequal, may_be_cut);

@@ -10,9 +10,9 @@
 
 namespace etd {
 
-class Recorder : public RenderObserver {
+class RenderRecorder : public RenderObserver {
  public:
-  explicit Recorder(std::atomic<bool>& stop, double stop_at) : stop_(stop), stop_at_(stop_at) {}
+  explicit RenderRecorder(std::atomic<bool>& stop, double stop_at) : stop_(stop), stop_at_(stop_at) {}
   void on_progress(const RenderProgress& p) override {
     const std::lock_guard lock(mutex_);
     highest = std::max(highest, p.spp_done);
