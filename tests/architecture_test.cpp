@@ -18,11 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = ETENDUE_SOURCE_DIR;
+const fs::path kRoot = etd::source_path("");
 constexpr int kMaxFileLines = 400;
 constexpr int kUsualHeaderLines = 150;
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "formats/pbrt/reader.h"
+#include "places.h"
 #include "render/settings.h"
 #include "scene/compile.h"
 #include "scene/scene.h"
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(ETENDUE_SOURCE_DIR) / "tests" / "scenes" / "broken";
+const fs::path kFolder = source_path("tests/scenes/broken");
 
 std::string slurp(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
 #include "program.h"
 #include "temp_folder.h"
 
@@ -47,8 +48,9 @@ class Cli : public ::testing::Test {
   pid_t start(const std::string& arguments) const { return start_shell("exec \"$ETENDUE\" " + arguments); }
   // A line of shell in which $ETENDUE is the program.
   pid_t start_shell(const std::string& line) const {
-    const std::string command = "cd '" + folder_.path().string() + "' && ETENDUE='" ETENDUE_BINARY "' && exec >'" +
-                                log_.path().string() + "/out' 2>'" + log_.path().string() + "/err' && " + line;
+    const std::string command = "cd '" + folder_.path().string() + "' && ETENDUE='" + program_path().string() +
+                                "' && exec >'" + log_.path().string() + "/out' 2>'" + log_.path().string() +
+                                "/err' && " + line;
     const char* argv[] = {"sh", "-c", command.c_str(), nullptr};
     pid_t pid = -1;
     EXPECT_EQ(posix_spawn(&pid, "/bin/sh", nullptr, nullptr, const_cast<char* const*>(argv), environ), 0);

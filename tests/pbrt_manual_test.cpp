@@ -8,11 +8,13 @@
 #include <fstream>
 #include <iterator>
 
+#include "places.h"
+
 namespace etd {
 namespace {
 
 TEST(PbrtManual, IsUpToDate) {
-  const std::filesystem::path path = std::filesystem::path(ETENDUE_SOURCE_DIR) / "docs" / "formats" / "pbrt.md";
+  const std::filesystem::path path = source_path("docs/formats/pbrt.md");
   const std::string text = pbrt_coverage_markdown();
   if (std::getenv("ETENDUE_UPDATE_EXPECTED")) {
     std::filesystem::create_directories(path.parent_path());

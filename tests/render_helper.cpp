@@ -28,10 +28,6 @@ Film render_description(const SceneDescription& description, const RenderOverrid
   return render_description(description, overrides, diagnostics);
 }
 
-std::filesystem::path source_path(const std::string& relative) {
-  return std::filesystem::path(ETENDUE_SOURCE_DIR) / relative;
-}
-
 Film render_scene(const std::filesystem::path& file, const RenderOverrides& overrides) {
   Diagnostics diagnostics;
   return render_description(read_pbrt(file, diagnostics), overrides, diagnostics);

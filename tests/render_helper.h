@@ -5,15 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
 #include "render/settings.h"
 #include "verify/statistics/film_mean.h"
 
 namespace etd {
 
 struct LayeredImage;
-
-// A file of the project, such as "tests/scenes/closed/sky.pbrt".
-std::filesystem::path source_path(const std::string& relative);
 
 // Render a pbrt scene to the end. Anything wrong with scene or overrides throws std::runtime_error with all messages.
 Film render_scene(const std::filesystem::path& file, const RenderOverrides& overrides);

@@ -6,13 +6,14 @@
 #include <filesystem>
 #include <string>
 
+#include "places.h"
+
 namespace etd {
 
 // A path in the shared folder: $ETENDUE_SHARED, or ../shared seen from the project. Empty when it is not there.
 inline std::filesystem::path shared_path(const std::string& relative) {
   const char* chosen = std::getenv("ETENDUE_SHARED");
-  const std::filesystem::path root =
-      chosen != nullptr ? std::filesystem::path(chosen) : std::filesystem::path(ETENDUE_SOURCE_DIR) / ".." / "shared";
+  const std::filesystem::path root = chosen != nullptr ? std::filesystem::path(chosen) : source_path("../shared");
   std::error_code ignored;
   return std::filesystem::exists(root / relative, ignored) ? root / relative : std::filesystem::path();
 }

@@ -49,6 +49,8 @@ endfunction()
 # Each copy includes the switches itself, so that what sees no fault compiles to what a compiler cache knows already.
 foreach(file IN LISTS ETENDUE_FAULTY_FILES)
   write_if_new("${ETENDUE_FAULTY_ROOT}/${file}"
-               "#include \"${CMAKE_SOURCE_DIR}/tests/faults/planted.h\"\n${fault_text_${file}}")
+               "#include \"planted.h\"\n${fault_text_${file}}")
 endforeach()
+file(READ "${CMAKE_CURRENT_LIST_DIR}/planted.h" switches)
+write_if_new("${ETENDUE_FAULTY_ROOT}/planted.h" "${switches}")
 write_if_new("${CMAKE_BINARY_DIR}/faults.txt" "${fault_list}")
