@@ -10,6 +10,8 @@
 
 #include "document_block.h"
 #include "expect_agreement.h"
+#include "light_sampling/light_sampler.h"
+#include "samplers/sampler.h"
 
 namespace etd {
 namespace {
@@ -55,7 +57,8 @@ std::vector<Variant> variants(const Scene& s, bool slow = false) {
                            {"naive", {{"integrator.mode", "naive"}}, "sobol", s.spp_naive},
                            {"next_event", {{"integrator.mode", "next_event"}}, "sobol", s.spp_next_event}};
   if (slow || !s.costly) {
-    all.push_back({"independent", {}, "independent", s.spp_mis});
+    for (const ModelDecl* sampler : sampler_models())
+      if (sampler->name != SamplerKind().name()) all.push_back({sampler->name, {}, sampler->name, s.spp_mis});
     all.push_back({"roulette from 1", {{"integrator.roulettedepth", "1"}}, "sobol", s.spp_mis});
     all.push_back({"no roulette", {{"integrator.roulettedepth", "1000"}}, "sobol", s.spp_mis});
   }
@@ -63,7 +66,9 @@ std::vector<Variant> variants(const Scene& s, bool slow = false) {
     for (const std::string name : {"balance", "maximum", "uniform"})
       all.push_back({name + " heuristic", {{"integrator.misheuristic", name}}, "sobol", s.spp_heuristics});
   if (s.spp_uniform > 0)
-    all.push_back({"lights all alike", {{"integrator.lightsampler", "uniform"}}, "sobol", s.spp_uniform});
+    for (const LightSamplerModel& m : light_sampler_models())
+      if (m.name != LightSampler().name())
+        all.push_back({"lights " + m.doc, {{"integrator.lightsampler", m.name}}, "sobol", s.spp_uniform});
   all.push_back({"light", {{"integrator.paths", "from_camera"}}, "sobol", s.spp_light, "light", s.visible_light});
   return all;
 }

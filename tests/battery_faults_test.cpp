@@ -201,15 +201,15 @@ TEST(WarpBatteryFaults, InfiniteAtTheEdge) {
 
 // ---- choices of lights
 
-LightChoiceModel by_power() { return light_choice_model("power", LightChoice::kPower); }
+LightChoiceModel by_power() { return light_choice_model("power"); }
 
 TEST(LightSamplerBatteryFaults, SoundModelsPass) { EXPECT_EQ(failed(check_light_choice(by_power())), Names{}); }
 
 TEST(LightSamplerBatteryFaults, ChosenAlikeButWeightedByPower) {
   LightChoiceModel m = by_power();
-  m.sample = [uniform = light_choice_model("", LightChoice::kUniform).sample, p = m.probability](double u) {
-    auto choice = uniform(u);
-    if (choice) choice->probability = p(choice->light);
+  m.sample = [uniform = light_choice_model("uniform").sample, p = m.probability](double u, const LightReceiver* r) {
+    auto choice = uniform(u, r);
+    if (choice) choice->probability = p(choice->light, r);
     return choice;
   };
   EXPECT_EQ(failed(check_light_choice(m)), (Names{"shares = probabilities"}));
@@ -217,8 +217,8 @@ TEST(LightSamplerBatteryFaults, ChosenAlikeButWeightedByPower) {
 
 TEST(LightSamplerBatteryFaults, ProbabilityOfAnother) {
   LightChoiceModel m = by_power();
-  m.sample = [sample = m.sample](double u) {
-    auto choice = sample(u);
+  m.sample = [sample = m.sample](double u, const LightReceiver* r) {
+    auto choice = sample(u, r);
     if (choice) choice->probability *= 1.001f;
     return choice;
   };
@@ -227,13 +227,25 @@ TEST(LightSamplerBatteryFaults, ProbabilityOfAnother) {
 
 TEST(LightSamplerBatteryFaults, AnotherLawThanPromised) {
   LightChoiceModel m = by_power();
-  m.choice = LightChoice::kUniform;
+  m.law = light_choice_model("uniform").law;
   EXPECT_EQ(failed(check_light_choice(m)), (Names{"probabilities as promised"}));
 }
 
+// Chosen by one receiver, weighted as for another.
+TEST(LightSamplerBatteryFaults, ProbabilityForAnotherReceiver) {
+  LightChoiceModel m = by_power();
+  m.law.clear();
+  m.sample = [uniform = light_choice_model("uniform").sample, power = m.sample](double u, const LightReceiver* r) {
+    return r && r->p.x > 0 ? uniform(u, r) : power(u, r);
+  };
+  EXPECT_EQ(failed(check_light_choice(m)), (Names{"shares = probabilities", "told with the sample"}));
+}
+
 TEST(LightSamplerBatteryFaults, ALightIsLeftOut) {
-  LightChoiceModel m = light_choice_model("uniform", LightChoice::kUniform);
-  m.probability = [p = m.probability](uint32_t light) { return light == 0 ? 0.0f : p(light); };
+  LightChoiceModel m = light_choice_model("uniform");
+  m.probability = [p = m.probability](uint32_t light, const LightReceiver* r) {
+    return light == 0 ? 0.0f : p(light, r);
+  };
   EXPECT_TRUE(failed(check_light_choice(m)).count("every light can be chosen"));
 }
 

@@ -45,7 +45,7 @@ TEST(Compile, EmptyWorlds) {
   const auto [scene, info] = compiled_of("");
   EXPECT_TRUE(info->summary.bounds.empty());
   EXPECT_FALSE(look(*scene, {0, 0, 0}, {0, 0, 1}));
-  EXPECT_FALSE(scene->light_sampler.sample(0.5));
+  EXPECT_FALSE(scene->light_sampler.sample(0.5, nullptr));
   const auto [only_light, only_light_info] = compiled_of("LightSource \"infinite\"");
   EXPECT_EQ(only_light->infinite_lights.size(), 1u);
   EXPECT_EQ(only_light_info->summary.lights.at("infinite"), 1u);
@@ -134,7 +134,7 @@ TEST(Compile, EmittersInObjectsBecomeLightsOfTheWorld) {
   EXPECT_EQ(met, (std::vector<bool>{true, true, true}));
   for (const Light& light : scene->lights) EXPECT_FLOAT_EQ(light.power()[0], scene->lights[0].power()[0]);
   float all = 0;
-  for (uint32_t light = 0; light < 3; ++light) all += scene->light_sampler.probability(light);
+  for (uint32_t light = 0; light < 3; ++light) all += scene->light_sampler.probability(light, nullptr);
   EXPECT_FLOAT_EQ(all, 1);
 }
 

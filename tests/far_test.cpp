@@ -239,7 +239,7 @@ TEST(Far, ASunOfAnyPowerLeavesTheLampsTheirSamples) {
   Diagnostics diagnostics;
   const auto scene = compile(read_pbrt_text(sun, "test", {}, diagnostics), {kWidth, kHeight}, diagnostics).scene;
   ASSERT_TRUE(scene) << diagnostics.format_all();
-  for (uint32_t i = 0; i < scene->lights.size(); ++i) EXPECT_GT(scene->light_sampler.probability(i), 0.2f);
+  for (uint32_t i = 0; i < scene->lights.size(); ++i) EXPECT_GT(scene->light_sampler.probability(i, nullptr), 0.2f);
 }
 
 std::string warning_of(const std::string& camera, const std::string& world) {

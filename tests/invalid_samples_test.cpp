@@ -102,7 +102,7 @@ class Defective : public PixelIntegrator {
 
 TEST(InvalidSamples, NeverReachTheFilm) {
   const IntegratorContext context{
-      .sampler = SamplerKind::kIndependent, .seed = 5, .width = 20, .crop = {2, 1, 20, 12}, .tile_size = 4};
+      .sampler = sampler_kind("independent"), .seed = 5, .width = 20, .crop = {2, 1, 20, 12}, .tile_size = 4};
   const FilmSettings settings{.width = 20, .height = 12, .crop = context.crop};
   RenderObserver nobody;
   for (const float bad : {kNan, kInfinity, -1.0f}) {

@@ -220,11 +220,11 @@ TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
   };
   const auto infinite = [](float l) { return Light(ConstantInfiniteLight{Spectrum(l)}); };
   const auto probabilities = [](const std::vector<Light>& lights) {
-    const LightSampler sampler(lights);
+    const LightSampler sampler = make_light_sampler("power", {lights});
     std::vector<float> p;
-    for (uint32_t i = 0; i < lights.size(); ++i) p.push_back(sampler.probability(i));
+    for (uint32_t i = 0; i < lights.size(); ++i) p.push_back(sampler.probability(i, nullptr));
     for (int i = 0; i < 1000; ++i) {
-      const auto choice = sampler.sample((i + 0.5) / 1000);
+      const auto choice = sampler.sample((i + 0.5) / 1000, nullptr);
       if (!choice) continue;
       EXPECT_EQ(choice->probability, p[choice->light]);
       EXPECT_GT(choice->probability, 0.0f);
@@ -239,14 +239,20 @@ TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
   EXPECT_EQ(mixed[4], 0.0f);
   EXPECT_EQ(probabilities({area(1), infinite(0)}), (std::vector<float>{1, 0}));
   EXPECT_EQ(probabilities({infinite(1), area(0)}), (std::vector<float>{1, 0}));
-  const LightSampler alike(std::vector<Light>{area(1), infinite(1e6f), area(0), area(3)}, LightChoice::kUniform);
-  EXPECT_FLOAT_EQ(alike.probability(0), 1 / 3.0f);
-  EXPECT_FLOAT_EQ(alike.probability(1), 1 / 3.0f);
-  EXPECT_EQ(alike.probability(2), 0.0f);
-  EXPECT_FLOAT_EQ(alike.probability(3), 1 / 3.0f);
-  EXPECT_FALSE(LightSampler(std::vector<Light>{area(0), infinite(0)}).sample(0.5));
-  EXPECT_FALSE(LightSampler(std::vector<Light>{}).sample(0));
-  EXPECT_FALSE(LightSampler().sample(0));
+  const std::vector<Light> four{area(1), infinite(1e6f), area(0), area(3)};
+  const LightSampler alike = make_light_sampler("uniform", {four});
+  EXPECT_FLOAT_EQ(alike.probability(0, nullptr), 1 / 3.0f);
+  EXPECT_FLOAT_EQ(alike.probability(1, nullptr), 1 / 3.0f);
+  EXPECT_EQ(alike.probability(2, nullptr), 0.0f);
+  EXPECT_FLOAT_EQ(alike.probability(3, nullptr), 1 / 3.0f);
+  const std::vector<Light> dark{area(0), infinite(0)};
+  for (const LightSamplerModel& m : light_sampler_models()) {
+    EXPECT_EQ(make_light_sampler(m.name, {four}).name(), m.name);
+    EXPECT_FALSE(make_light_sampler(m.name, {dark}).sample(0.5, nullptr));
+    EXPECT_EQ(make_light_sampler(m.name, {dark}).probability(1, nullptr), 0.0f);
+    EXPECT_FALSE(make_light_sampler(m.name, {}).sample(0, nullptr));
+  }
+  EXPECT_FALSE(LightSampler().sample(0, nullptr));
 }
 
 }  // namespace

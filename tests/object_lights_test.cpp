@@ -71,8 +71,8 @@ TEST_P(ObjectLight, ShinesOnceForEachInstance) {
   EXPECT_EQ(two_info->names.lights.size(), 2u);
   EXPECT_EQ(luminance(two->lights[0].power()), luminance(two->lights[1].power()));
   // Both are chosen alike by power, and in a quarter of all cases by what the camera gets of them.
-  EXPECT_GE(two->light_sampler.probability(0), 0.375f);
-  EXPECT_GE(two->light_sampler.probability(1), 0.375f);
+  EXPECT_GE(two->light_sampler.probability(0, nullptr), 0.375f);
+  EXPECT_GE(two->light_sampler.probability(1, nullptr), 0.375f);
 }
 
 // Also where the instance mirrors, and where objects stand in objects.

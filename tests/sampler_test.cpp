@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "samplers/owen_sobol.h"
+#include "samplers/sampler_list.h"
 #include "verify/statistics/statistics.h"
 
 namespace etd {
@@ -16,7 +17,7 @@ namespace {
 
 // Chance that a whole test raises a false alarm.
 constexpr double kFamily = 1e-6;
-constexpr SamplerKind kKinds[] = {SamplerKind::kIndependent, SamplerKind::kSobol};
+const SamplerKind kKinds[] = {SamplerKind(IndependentSampler()), SamplerKind(SobolSampler())};
 
 Sampler started(SamplerKind kind, uint64_t seed, uint64_t stream, uint32_t replicate, uint32_t index,
                 uint32_t dimension) {
@@ -100,9 +101,9 @@ TEST(SobolSampler, IntegratesSmoothFunctionsBetter) {
 }
 
 TEST(Sampler, KindsByName) {
-  EXPECT_EQ(sampler_kind("independent"), SamplerKind::kIndependent);
-  EXPECT_EQ(sampler_kind("sobol"), SamplerKind::kSobol);
-  EXPECT_EQ(sampler_models().size(), 2u);
+  for (const ModelDecl* decl : sampler_models()) EXPECT_EQ(sampler_kind(decl->name).name(), decl->name);
+  EXPECT_EQ(SamplerKind().name(), "sobol");
+  EXPECT_EQ(sampler_kind("sobl"), SamplerKind());
 }
 
 }  // namespace

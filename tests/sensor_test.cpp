@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "film/film_model.h"
+#include "film/rgb.h"
 #include "formats/pbrt/reader.h"
 #include "io/image_write.h"
 #include "model_uses.h"
@@ -19,8 +19,8 @@ namespace {
 Sensor sensor(std::vector<Param> params, std::string* problems = nullptr, double shutter = 1) {
   Diagnostics diagnostics;
   const ModelUse use = use_of("rgb", std::move(params));
-  check_params(rgb_film_decl(), use, diagnostics);
-  const Sensor s = Sensor::create(ParamReader(rgb_film_decl(), use, diagnostics), shutter);
+  check_params(RgbFilm::decl(), use, diagnostics);
+  const Sensor s = Sensor::create(ParamReader(RgbFilm::decl(), use, diagnostics), shutter);
   if (problems)
     *problems = diagnostics.format_all();
   else

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "film/film_model.h"
+#include "film/rgb.h"
 #include "render/duration.h"
 #include "render/registry.h"
 
@@ -59,7 +59,7 @@ TEST(Settings, DefaultsOfTheFormat) {
   EXPECT_EQ(s.spp, 16u);
   EXPECT_EQ(s.film.replicates, 2u);
   EXPECT_EQ(s.seed, 0u);
-  EXPECT_EQ(s.sampler, SamplerKind::kSobol);
+  EXPECT_EQ(s.sampler.name(), "sobol");
   EXPECT_EQ(s.integrator.model, "path");
   EXPECT_EQ(s.filename, "pbrt.exr");
 }
@@ -72,7 +72,7 @@ TEST(Settings, TheSceneIsObeyed) {
   EXPECT_EQ(s.film.crop, (PixelBounds{0, 0, 100, 50}));
   EXPECT_EQ(s.spp, 6u);
   EXPECT_EQ(s.seed, 9u);
-  EXPECT_EQ(s.sampler, SamplerKind::kIndependent);
+  EXPECT_EQ(s.sampler.name(), "independent");
 }
 
 TEST(Settings, SamplesAreRoundedUpToReplicates) {
@@ -165,7 +165,7 @@ TEST(Settings, OverridesOfDeclaredParameters) {
   EXPECT_EQ(s.film.crop, (PixelBounds{1, 3, 2, 4}));
   EXPECT_EQ(s.spp, 32u);
   o.sampler = "independent";
-  EXPECT_EQ(good(d, o).sampler, SamplerKind::kIndependent);
+  EXPECT_EQ(good(d, o).sampler.name(), "independent");
 }
 
 TEST(Settings, WrongOverridesAreErrorsThatSayWhatIsValid) {
@@ -203,7 +203,7 @@ TEST(Settings, WrongNumbersAndModelsAreErrors) {
 }
 
 TEST(Registry, KnowsFilmSamplersAndIntegrators) {
-  EXPECT_EQ(find_any_model(Family::kFilm, "rgb"), &rgb_film_decl());
+  EXPECT_EQ(find_any_model(Family::kFilm, "rgb"), &RgbFilm::decl());
   EXPECT_TRUE(find_any_model(Family::kSampler, "sobol"));
   EXPECT_TRUE(find_any_model(Family::kSampler, "independent"));
   EXPECT_TRUE(find_any_model(Family::kIntegrator, "path"));

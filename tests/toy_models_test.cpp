@@ -5,10 +5,13 @@
 
 #include "bsdfs/bsdf_list.h"
 #include "cameras/camera_list.h"
+#include "film/film_list.h"
 #include "filters/filter_list.h"
+#include "light_sampling/light_sampler_list.h"
 #include "lights/light_list.h"
 #include "materials/material_list.h"
 #include "params/model_list.h"
+#include "samplers/sampler_list.h"
 #include "shapes/shape_list.h"
 #include "textures/texture_list.h"
 
@@ -186,6 +189,89 @@ TEST(ToyModels, Light) {
   const auto s = dispatched<std::optional<LightSample>, Lights>(toy, sample);
   ASSERT_TRUE(s);
   EXPECT_EQ(s->radiance[0], 0.125f);
+}
+
+// Every light alike, but the first for receivers behind a plane.
+struct ToyLightSampler {
+  static constexpr const char* kName = "toy";
+  static constexpr const char* kDoc = "by chance";
+  uint32_t count;
+  static ToyLightSampler create(const LightSamplerContext& context, LightSamplerData&) {
+    return {static_cast<uint32_t>(context.lights.size())};
+  }
+  std::optional<LightChoice> choose(double u, const LightReceiver* receiver) const {
+    const uint32_t light = receiver && receiver->p.z < 0 ? 0 : static_cast<uint32_t>(u * count);
+    return LightChoice{light, probability(light, receiver)};
+  }
+  float probability(uint32_t light, const LightReceiver* receiver) const {
+    if (receiver && receiver->p.z < 0) return light == 0 ? 1.0f : 0.0f;
+    return 1.0f / static_cast<float>(count);
+  }
+};
+
+TEST(ToyModels, LightSampler) {
+  const ParamDecl before = light_sampler_param();
+  using Longer = WithToy<LightSamplers, ToyLightSampler>;
+  const ParamDecl after = choice_param<PowerLightSampler>(Longer{}, before.name, "Chosen ", ".");
+  EXPECT_EQ(after.choices, (std::vector<std::string>{"power", "uniform", "toy"}));
+  EXPECT_EQ(after.doc, "Chosen by their power, all alike, or by chance.");
+  EXPECT_FALSE(with_named(LightSamplers{}, "toy", [](auto) {}));
+  const std::vector<Light> lights(4, Light(ConstantInfiniteLight{Spectrum(1.0f)}));
+  LightSamplerData data;
+  std::optional<ToyLightSampler> toy;
+  EXPECT_TRUE(with_named(Longer{}, "toy", [&]<class T>(std::type_identity<T>) {
+    if constexpr (std::is_same_v<T, ToyLightSampler>) toy = T::create({lights}, data);
+  }));
+  ASSERT_TRUE(toy);
+  SurfacePoint behind;
+  behind.p = {0, 0, -1};
+  const LightReceiver receiver(behind, 0.0f);
+  const auto choice = [&](const LightReceiver* r) {
+    return *dispatched<std::optional<LightChoice>, LightSamplers>(*toy,
+                                                                  [&](const auto& s) { return s.choose(0.8, r); });
+  };
+  EXPECT_EQ(choice(nullptr).light, 3u);
+  EXPECT_EQ(choice(nullptr).probability, 0.25f);
+  EXPECT_EQ(choice(&receiver).light, 0u);
+  EXPECT_EQ(choice(&receiver).probability, 1.0f);
+}
+
+// Half of every sample's number.
+struct ToySampler {
+  static constexpr SamplerTraits kTraits{};
+  static const ModelDecl& decl() { return toy_decl(Family::kSampler); }
+  static float get_1d(const SampleNumber& n) { return static_cast<float>(n.index) / 2; }
+  static Vec2 get_2d(const SampleNumber& n) { return {get_1d(n), static_cast<float>(n.dimension)}; }
+  static uint64_t get_bits(const SampleNumber& n) { return n.index; }
+};
+
+TEST(ToyModels, Sampler) {
+  const auto toy = made<Samplers, ToySampler>([](const ParamReader&) { return ToySampler(); });
+  const SampleNumber number{1, 6, 2};
+  EXPECT_EQ((dispatched<Vec2, Samplers>(toy, [&](const auto& s) { return s.get_2d(number); })), (Vec2{3, 2}));
+}
+
+struct ToyFilm {
+  static const ModelDecl& decl() {
+    static const ModelDecl d =
+        with_params({Family::kFilm, "toy", "A toy.", {}}, {RgbFilm::decl().params, toy_decl(Family::kFilm).params});
+    return d;
+  }
+  static FilmModel create(const ParamReader& p, const FilmContext& context) {
+    FilmModel model = RgbFilm::create(p, context);
+    model.settings.sensor.imaging_ratio *= p.number("size");
+    return model;
+  }
+};
+
+TEST(ToyModels, Film) {
+  FilmModel model;
+  made<Films, ToyFilm>([&](const ParamReader& p) {
+    model = ToyFilm::create(p, {.size = std::pair(8, 4)});
+    return ToyFilm();
+  });
+  EXPECT_EQ(model.settings.width, 8);
+  EXPECT_EQ(model.settings.sensor.imaging_ratio, 0.25);
 }
 
 struct ToyShape {

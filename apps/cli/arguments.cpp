@@ -11,6 +11,7 @@
 #include "formats/mesh/reader.h"
 #include "formats/pbrt/reader.h"
 #include "io/gzip.h"
+#include "samplers/sampler.h"
 
 namespace etd::cli {
 namespace {
@@ -22,6 +23,14 @@ void add_value(CLI::App& command, const std::string& name, std::optional<T>& to,
       .add_option_function<T>(
           name, [&to](const T& value) { to = value; }, help)
       ->type_name(type);
+}
+
+// The names of samplers, that of the default first.
+std::string sampler_names() {
+  std::string names(SamplerKind().name());
+  for (const ModelDecl* decl : sampler_models())
+    if (decl->name != SamplerKind().name()) names += " or " + decl->name;
+  return names;
 }
 
 }  // namespace
@@ -85,7 +94,7 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
   add_value(command, "--replicates", o.replicates,
             "independent estimates that the samples are divided into (2); from 4 on their spread gives the error", "R");
   add_value(command, "--seed", o.seed, "another seed gives another estimate; the same one gives the same bits", "N");
-  add_value(command, "--sampler", o.sampler, "sobol or independent; other names as scenes take them", "NAME");
+  add_value(command, "--sampler", o.sampler, sampler_names() + "; other names as scenes take them", "NAME");
   add_value(command, "--integrator", o.integrator,
             "the algorithm, in place of the scene's: path or light (etendue describe integrator)", "NAME");
   // Short names for parameters of the integrator.

@@ -1,5 +1,5 @@
-// The film models as scene files describe them: how large the image is, which part of it is wanted, how it is exposed,
-// and what becomes of it.
+// The family of films as scene files describe them: how large the image is, which part of it is wanted, how it is
+// exposed, and what becomes of it.
 #pragma once
 
 #include <optional>
@@ -21,13 +21,15 @@ struct FilmModel {
   bool in_camera_space = false;  // positions and normals
 };
 
-const ModelDecl& rgb_film_decl();
-const ModelDecl& gbuffer_film_decl();
-std::span<const ModelDecl* const> film_models();
+// What a film is made in, beside its parameters.
+struct FilmContext {
+  // Replaces the resolution: the crop window scales with it, and pixel bounds are scaled outward.
+  std::optional<std::pair<int, int>> size = {};
+  double shutter = 1;  // how long the camera's shutter is open, in seconds
+};
 
-// `size` replaces the resolution: the crop window scales with it, and pixel bounds are scaled outward. Bounds that
-// leave nothing of the image are an error; then the crop is the whole image. `shutter` is how long the camera's shutter
-// is open, in seconds.
-FilmModel read_film_model(const ParamReader& reader, std::optional<std::pair<int, int>> size, double shutter);
+std::span<const ModelDecl* const> film_models();
+// Makes the film of a checked use; that of "rgb" for an unknown name.
+FilmModel make_film_model(const ModelUse& use, const FilmContext& context, Diagnostics& diagnostics);
 
 }  // namespace etd

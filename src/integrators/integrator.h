@@ -26,7 +26,7 @@ inline constexpr uint32_t kCorrelatedReplicates = 8;
 
 // What an integrator needs beside its own parameters.
 struct IntegratorContext {
-  SamplerKind sampler = SamplerKind::kSobol;
+  SamplerKind sampler;
   uint64_t seed = 0;
   int width = 0, height = 0;  // of the full image: name the streams
   PixelBounds crop;

@@ -31,9 +31,11 @@ std::vector<Variant> LightIntegrator::variants(const Scene&, int) {
 }
 
 LightIntegrator::LightIntegrator(const Scene& scene, const LightSettings& settings, const IntegratorContext& context)
-    : scene_(scene), settings_(settings), context_(context), camera_splat_(scene, context.width, context.height) {
-  if (settings.light_choice == LightChoice::kUniform) uniform_.emplace(scene.lights, LightChoice::kUniform);
-}
+    : scene_(scene),
+      settings_(settings),
+      context_(context),
+      camera_splat_(scene, context.width, context.height),
+      lights_(light_sampler_of(scene, settings)) {}
 
 std::string LightIntegrator::bias() const {
   std::string bias = kUnseenByLightPaths;
@@ -105,9 +107,8 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
             v.flux * v.scatter.eval_cos(v.wo(), c->wi, TransportMode::kImportance, v.rng) * c->weight);
     return true;
   };
-  follow_light_path(scene_, uniform_ ? *uniform_ : scene_.light_sampler,
-                    {settings_.max_depth, settings_.roulette_depth, settings_.from_camera}, sampler, rays, at_light,
-                    at_vertex);
+  follow_light_path(scene_, lights_, {settings_.max_depth, settings_.roulette_depth, settings_.from_camera}, sampler,
+                    rays, at_light, at_vertex);
   return rays;
 }
 

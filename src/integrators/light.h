@@ -46,7 +46,7 @@ class LightIntegrator : public Integrator {
   LightSettings settings_;
   IntegratorContext context_;
   CameraSplat camera_splat_;
-  std::optional<LightSampler> uniform_;  // in place of the scene's
+  LightSampler lights_;
 };
 
 }  // namespace etd

@@ -66,7 +66,7 @@ template <class AtLight, class AtVertex>
 void follow_light_path(const Scene& scene, const LightSampler& lights, const LightPathSettings& settings,
                        Sampler& sampler, RayCounts& rays, AtLight&& at_light, AtVertex&& at_vertex) {
   const ShadingContext context{scene.camera.ray_time(scene.moves ? sampler.get_1d() : 0.0f)};
-  const auto choice = lights.sample(sampler.get_choice());
+  const auto choice = lights.sample(sampler.get_choice(), nullptr);
   if (!choice) return;
   const Light& light = scene.lights[choice->light];
   const Vec2 u_position = sampler.get_2d(), u_direction = sampler.get_2d();

@@ -35,7 +35,8 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
                     HashStream& rng, RayCounts& rays, Recorder& recorder) {
   const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
-  const auto choice = how.lights.sample(u_light);
+  const LightReceiver receiver(v.point, v.context.time);
+  const auto choice = how.lights.sample(u_light, &receiver);
   if (!choice) return Spectrum();
   recorder.light(choice->light, choice->probability);
   const Light& light = scene.lights[choice->light];

@@ -79,28 +79,28 @@ std::vector<Variant> PathIntegrator::variants(const Scene& scene, int max_depth)
                                    ? fmt::format("paths may have {} events; --max-depth {} would make it apply",
                                                  max_depth, kLongestWithoutRoulette)
                                    : "";
-  return {
-      {.name = "mis"},
-      {.name = "naive",
-       .set = {{"mode", "naive"}},
-       .not_applicable = delta ? "no ray meets lights without extent" : ""},
-      {.name = "next_event", .set = {{"mode", "next_event"}}, .samples_lights_alone = true},
-      {.name = "independent", .sampler = "independent"},
-      {.name = "balance heuristic", .set = {{"misheuristic", "balance"}}},
-      {.name = "lights all alike",
-       .set = {{"lightsampler", "uniform"}},
-       .not_applicable = scene.lights.size() < 2 ? "there is one light at most" : ""},
-      {.name = "roulette from 1", .set = {{"roulettedepth", "1"}}, .not_applicable = too_short},
-      {.name = "no roulette",
-       .set = {{"roulettedepth", "1048576"}},
-       .not_applicable = too_short.empty() ? too_long : too_short},
-  };
+  std::vector<Variant> all{{.name = "mis"},
+                           {.name = "naive",
+                            .set = {{"mode", "naive"}},
+                            .not_applicable = delta ? "no ray meets lights without extent" : ""},
+                           {.name = "next_event", .set = {{"mode", "next_event"}}, .samples_lights_alone = true}};
+  for (const ModelDecl* sampler : sampler_models())
+    if (sampler->name != SamplerKind().name()) all.push_back({.name = sampler->name, .sampler = sampler->name});
+  all.push_back({.name = "balance heuristic", .set = {{"misheuristic", "balance"}}});
+  for (const LightSamplerModel& m : light_sampler_models())
+    if (m.name != scene.light_sampler.name())
+      all.push_back({.name = "lights " + m.doc,
+                     .set = {{"lightsampler", m.name}},
+                     .not_applicable = scene.lights.size() < 2 ? "there is one light at most" : ""});
+  all.push_back({.name = "roulette from 1", .set = {{"roulettedepth", "1"}}, .not_applicable = too_short});
+  all.push_back({.name = "no roulette",
+                 .set = {{"roulettedepth", "1048576"}},
+                 .not_applicable = too_short.empty() ? too_long : too_short});
+  return all;
 }
 
 PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context)
-    : PixelIntegrator(context), scene_(scene), settings_(settings) {
-  if (settings.light_choice == LightChoice::kUniform) uniform_.emplace(scene.lights, LightChoice::kUniform);
-}
+    : PixelIntegrator(context), scene_(scene), settings_(settings), lights_(light_sampler_of(scene, settings)) {}
 
 std::string PathIntegrator::bias() const {
   std::string bias;
@@ -137,9 +137,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   const ShadingContext context{ray.time};
   recorder.camera(start.sample, ray);
 
-  const LightSampler& lights = uniform_ ? *uniform_ : scene_.light_sampler;
   const bool mis = settings_.mode == PathMode::kMis;
-  const NextEvent how{lights, mis, settings_.heuristic};
+  const NextEvent how{lights_, mis, settings_.heuristic};
   PathFeatures features;
   Spectrum beta(1.0f);          // throughput: the product of f cos / pdf so far
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
@@ -160,7 +159,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
     if (!only_scattering && mis) {
       const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, how.sampling());
-      pdf_light = lights.probability(light) * pdf;
+      const LightReceiver receiver(last, context.time);
+      pdf_light = lights_.probability(light, &receiver) * pdf;
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
     recorder.emission(light, radiance, scatter_pdf, pdf_light, weight);

@@ -47,7 +47,7 @@ class PathIntegrator : public PixelIntegrator {
 
   const Scene& scene_;
   PathSettings settings_;
-  std::optional<LightSampler> uniform_;  // in place of the scene's
+  LightSampler lights_;
 };
 
 }  // namespace etd

@@ -96,13 +96,16 @@ double first_radius(const Scene& scene, double pixels, double photons) {
 }  // namespace
 
 SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmSettings& settings, const IntegratorContext& context)
-    : scene_(scene), settings_(settings), context_(context), tiles_(context) {
+    : scene_(scene),
+      settings_(settings),
+      context_(context),
+      tiles_(context),
+      lights_(light_sampler_of(scene, settings)) {
   const uint64_t pixels = static_cast<uint64_t>(context.width) * static_cast<uint64_t>(context.height);
   if (settings_.photons == 0) settings_.photons = pixels;
   if (!(settings_.radius > 0))
     settings_.radius = first_radius(scene, static_cast<double>(pixels), static_cast<double>(settings_.photons));
   settings_.radius *= settings_.radius_scale;
-  if (settings.light_choice == LightChoice::kUniform) uniform_.emplace(scene.lights, LightChoice::kUniform);
 }
 
 std::string SppmIntegrator::bias() const {
@@ -184,7 +187,7 @@ void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) 
       return true;
     };
     follow_light_path(
-        scene_, lights(), settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
+        scene_, lights_, settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
   }
   grid_.finish_item(item);
   sink.count(rays);
@@ -207,7 +210,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
   const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
   Ray ray = start.ray;
   const ShadingContext context{ray.time};
-  const NextEvent how{lights()};
+  const NextEvent how{lights_};
   NoRecorder recorder;
   PathFeatures features;
   Spectrum beta(1.0f);

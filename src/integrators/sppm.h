@@ -46,7 +46,6 @@ class SppmIntegrator : public Integrator {
     uint32_t replicate, index;
   };
   Iteration iteration(const Pass& pass, uint32_t phase) const;
-  const LightSampler& lights() const { return uniform_ ? *uniform_ : scene_.light_sampler; }
   void trace_photons(const Iteration& i, size_t item, Sink& sink);
   void gather_tile(const Iteration& i, size_t item, Sink& sink) const;
   PixelSample gather(int x, int y, Sampler& sampler) const;
@@ -57,10 +56,10 @@ class SppmIntegrator : public Integrator {
   SppmSettings settings_;
   IntegratorContext context_;
   PixelTiles tiles_;
-  std::optional<LightSampler> uniform_;  // in place of the scene's
-  PhotonGrid grid_;                      // of the running iteration
-  float radius_ = 0;                     // of the running iteration
-  uint64_t last_ = 0;                    // the highest number of an iteration that has begun
+  LightSampler lights_;
+  PhotonGrid grid_;    // of the running iteration
+  float radius_ = 0;   // of the running iteration
+  uint64_t last_ = 0;  // the highest number of an iteration that has begun
 };
 
 }  // namespace etd

@@ -22,11 +22,7 @@ std::vector<ParamDecl> transport_params(int deepest) {
            .min = 1,
            .max = static_cast<double>(deepest),
            .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},
-          {.name = "lightsampler",
-           .type = ParamType::kString,
-           .default_value = std::string("power"),
-           .choices = {"power", "uniform"},
-           .doc = "How lights are chosen: by their power, or all alike; never changes the mean."}};
+          light_sampler_param()};
 }
 
 TransportSettings transport_settings(const ParamReader& p) {
@@ -40,8 +36,14 @@ TransportSettings transport_settings(const ParamReader& p) {
   // No path is longer than the deepest component that is kept.
   if (!s.indirect) s.max_depth = std::min(s.max_depth, s.direct ? 1 : 0);
   s.roulette_depth = p.integer("roulettedepth");
-  s.light_choice = p.string("lightsampler") == "uniform" ? LightChoice::kUniform : LightChoice::kPower;
+  s.light_sampler = p.string("lightsampler");
   return s;
+}
+
+LightSampler light_sampler_of(const Scene& scene, const TransportSettings& settings) {
+  const std::string& name = settings.light_sampler;
+  if (name.empty() || name == scene.light_sampler.name()) return scene.light_sampler;
+  return make_light_sampler(name, {scene.lights, scene.viewer});
 }
 
 ParamDecl paths_from_lights_param() {

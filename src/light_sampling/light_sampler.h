@@ -1,48 +1,70 @@
-// Chooses one light for next-event estimation.
+// The family of light samplers: each chooses one light, for next-event estimation or for a path that starts there. Any
+// choice gives the same mean, as long as every light that may reach the receiver can be chosen.
 #pragma once
 
+#include <deque>
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/distribution.h"
+#include "core/tagged.h"
 #include "lights/light.h"
 
 namespace etd {
 
-// How likely each light is. Any choice gives the same mean, as long as every light that emits can be chosen.
-enum class LightChoice : uint8_t {
-  kPower,  // finite lights in proportion to the luminance of their power and, a share of them, of what the viewer sees
-           // of it, infinite ones with a fixed share, because their power over a scene's surfaces says little about
-           // what a point sees of them
-  kUniform,  // all that emit alike
+// The point that asks for light, by which a sampler may choose.
+struct LightReceiver {
+  LightReceiver(const SurfacePoint& s, float time_of_path) : p(s.p), n(s.ng), time(time_of_path) {}
+
+  Point3 p;
+  Vec3 n;  // unit geometric normal
+  float time;
+};
+
+struct LightChoice {
+  uint32_t light;
+  float probability;
+};
+
+// What a light sampler is made from.
+struct LightSamplerContext {
+  std::span<const Light> lights;
+  Point3 viewer = {};  // where the camera is, about
+};
+
+// What light samplers are too small to hold themselves. Nothing in it moves.
+struct LightSamplerData {
+  std::deque<AliasTable> tables;
 };
 
 class LightSampler {
  public:
-  // Share of the samples that infinite lights get together when there are finite ones too (kPower).
-  static constexpr double kInfiniteShare = 0.5;
-  // Share of the samples of finite lights that go by the irradiance at the viewer: the power of a sun of any size would
-  // otherwise leave nothing for the lamps.
-  static constexpr double kSeenShare = 0.25;
+  // The default, which chooses no light.
+  LightSampler();
+  template <class T>
+  LightSampler(const T& sampler, std::shared_ptr<const LightSamplerData> data);
 
-  // The irradiance on a sphere of cross section 1 around the viewer, as one point of the light tells it.
-  static double seen(const Light& light, Point3 viewer);
-
-  struct Choice {
-    uint32_t light;
-    float probability;
-  };
-
-  LightSampler() = default;
-  // `viewer`: where the camera is, about.
-  explicit LightSampler(std::span<const Light> lights, LightChoice choice = LightChoice::kPower, Point3 viewer = {});
-
-  // Takes u in [0, 1) with all the bits of a double. Returns nothing when no light emits.
-  std::optional<Choice> sample(double u) const;
-  float probability(uint32_t light) const { return table_.probability(light); }
+  // Takes u in [0, 1) with all the bits of a double. `receiver` is null when the light is to start a path, whoever may
+  // receive it. Nothing when no light emits.
+  std::optional<LightChoice> sample(double u, const LightReceiver* receiver) const;
+  // The probability with which sample() gives the light to this receiver.
+  float probability(uint32_t light, const LightReceiver* receiver) const;
+  std::string_view name() const;
 
  private:
-  AliasTable table_;
-  bool any_ = false;
+  TaggedStorage<16> storage_;
+  std::shared_ptr<const LightSamplerData> data_;  // that the stored value refers to
 };
+
+// Each by its name and what it says of itself: "lights are chosen ...".
+struct LightSamplerModel {
+  std::string name, doc;
+};
+std::vector<LightSamplerModel> light_sampler_models();
+// The parameter "lightsampler" of integrators.
+ParamDecl light_sampler_param();
+// Makes the sampler of that name; the default, power, for an unknown one.
+LightSampler make_light_sampler(std::string_view name, const LightSamplerContext& context);
 
 }  // namespace etd

@@ -221,7 +221,7 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   const auto add = [&data](const char* name, MetadataValue value) {
     data.emplace_back(std::string("etendue:") + name, std::move(value));
   };
-  add("sampler", std::string(settings.sampler == SamplerKind::kSobol ? "sobol" : "independent"));
+  add("sampler", std::string(settings.sampler.name()));
   add("seed", std::to_string(settings.seed));
   add("replicates", static_cast<int>(film.replicates));
   if (film.replicates != film.all_replicates())

@@ -48,9 +48,9 @@ double shutter_seconds(const ModelUse& camera) {
   return seconds > 0 ? seconds : 1;
 }
 
-void read_film(const ParamReader& reader, const SceneDescription& description, const RenderOverrides& overrides,
-               RenderSettings& settings) {
-  const FilmModel model = read_film_model(reader, overrides.size, shutter_seconds(description.camera));
+void read_film(const ModelUse& use, const SceneDescription& description, const RenderOverrides& overrides,
+               RenderSettings& settings, Diagnostics& diagnostics) {
+  const FilmModel model = make_film_model(use, {overrides.size, shutter_seconds(description.camera)}, diagnostics);
   FilmSettings& film = settings.film = model.settings;
   settings.filename = model.filename;
   settings.half = model.half;
@@ -58,10 +58,9 @@ void read_film(const ParamReader& reader, const SceneDescription& description, c
   if (!overrides.crop) return;
   const PixelBounds& c = *overrides.crop;
   if (c.empty() || c.x0 < 0 || c.y0 < 0 || c.x1 > film.width || c.y1 > film.height)
-    reader.diagnostics().error(
-        {}, fmt::format("the crop {},{},{},{} is not a part of the image", c.x0, c.x1, c.y0, c.y1),
-        fmt::format("it is x0,x1,y0,y1 in pixels with x1 and y1 outside; the image is {} x {} pixels", film.width,
-                    film.height));
+    diagnostics.error({}, fmt::format("the crop {},{},{},{} is not a part of the image", c.x0, c.x1, c.y0, c.y1),
+                      fmt::format("it is x0,x1,y0,y1 in pixels with x1 and y1 outside; the image is {} x {} pixels",
+                                  film.width, film.height));
   else
     film.crop = c;
 }
@@ -174,7 +173,7 @@ RenderSettings make_settings(const SceneDescription& description, const RenderOv
   const ModelDecl* integrator_decl = require_model(Family::kIntegrator, settings.integrator, diagnostics);
   if (film_decl) {
     check_params(*film_decl, film, diagnostics);
-    read_film(ParamReader(*film_decl, film, diagnostics), description, overrides, settings);
+    read_film(film, description, overrides, settings, diagnostics);
   }
   apply_traits(overrides, settings, diagnostics);
   if (sampler_decl) {

@@ -22,7 +22,7 @@ struct RenderSettings {
   uint32_t spp = 16;           // of the whole image, at most; a multiple of all replicates
   bool spp_unlimited = false;  // nobody asked for a number of samples: spp is the largest possible one
   uint64_t seed = 0;
-  SamplerKind sampler = SamplerKind::kSobol;
+  SamplerKind sampler;
   ModelUse integrator;  // with the overrides applied
   IntegratorTraits traits;
   int tile_size = 16;

@@ -1,52 +1,45 @@
 #include "samplers/sampler.h"
 
-#include <array>
-
-#include "core/hash.h"
-#include "samplers/owen_sobol.h"
+#include "params/model_list.h"
+#include "samplers/sampler_list.h"
 
 namespace etd {
 
+SamplerKind::SamplerKind() : SamplerKind(SobolSampler()) {}
+
+std::string_view SamplerKind::name() const {
+  return dispatch<std::string_view, Samplers>(storage_, [](const auto& kind) { return kind.decl().name; });
+}
+
+SamplerTraits SamplerKind::traits() const {
+  return dispatch<SamplerTraits, Samplers>(storage_, [](const auto& kind) { return kind.kTraits; });
+}
+
 void Sampler::start(uint64_t stream, uint32_t replicate, uint32_t index) {
-  key_ = hash_combine(seed_, replicate, stream);
-  index_ = index;
-  dimension_ = 0;
+  next_.key = hash_combine(seed_, replicate, stream);
+  next_.index = index;
+  next_.dimension = 0;
 }
 
 float Sampler::get_1d() {
-  const uint64_t h = hash_combine(key_, dimension_++);
-  if (kind_ == SamplerKind::kIndependent) return unit_float(static_cast<uint32_t>(hash_combine(h, index_)));
-  const uint32_t i = shuffled_index(index_, static_cast<uint32_t>(h));
-  return unit_float(owen_sobol_x(i, static_cast<uint32_t>(h >> 32)));
+  const SampleNumber n = advance();
+  return dispatch<float, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_1d(n); });
 }
 
 double Sampler::get_choice() {
-  const uint64_t h = hash_combine(key_, dimension_++);
-  uint64_t bits = hash_combine(h, index_);
-  if (kind_ == SamplerKind::kSobol) {
-    // Behind the 32 digits that an index has, an Owen scramble is plain noise.
-    const uint32_t i = shuffled_index(index_, static_cast<uint32_t>(h));
-    bits = static_cast<uint64_t>(owen_sobol_x(i, static_cast<uint32_t>(h >> 32))) << 32 | bits >> 32;
-  }
+  const SampleNumber n = advance();
+  const auto bits = dispatch<uint64_t, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_bits(n); });
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
 Vec2 Sampler::get_2d() {
-  const uint64_t h = hash_combine(key_, dimension_++);
-  if (kind_ == SamplerKind::kIndependent) {
-    const uint64_t bits = hash_combine(h, index_);
-    return {unit_float(static_cast<uint32_t>(bits)), unit_float(static_cast<uint32_t>(bits >> 32))};
-  }
-  const uint32_t i = shuffled_index(index_, static_cast<uint32_t>(h));
-  return {unit_float(owen_sobol_x(i, static_cast<uint32_t>(h >> 32))),
-          unit_float(owen_sobol_y(i, static_cast<uint32_t>(mix_bits(h))))};
+  const SampleNumber n = advance();
+  return dispatch<Vec2, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_2d(n); });
 }
 
-uint64_t Sampler::key(uint64_t salt) const { return hash_combine(key_, index_, salt); }
+uint64_t Sampler::key(uint64_t salt) const { return hash_combine(next_.key, next_.index, salt); }
 
-namespace {
-
-std::vector<ParamDecl> common_params() {
+std::vector<ParamDecl> sampler_params() {
   return {{.name = "pixelsamples",
            .type = ParamType::kInteger,
            .default_value = 16,
@@ -59,21 +52,15 @@ std::vector<ParamDecl> common_params() {
            .doc = "Chooses another, equally good set of random numbers."}};
 }
 
-}  // namespace
-
 std::span<const ModelDecl* const> sampler_models() {
-  static const ModelDecl independent{Family::kSampler, "independent",
-                                     "Every number independent of every other: the textbook Monte Carlo estimate.",
-                                     common_params()};
-  static const ModelDecl sobol{Family::kSampler, "sobol",
-                               "Owen-scrambled Sobol points, padded pair by pair: the least error for equal samples.",
-                               common_params()};
-  static const std::array<const ModelDecl*, 2> all{&independent, &sobol};
+  static const std::vector<const ModelDecl*> all = declarations(Samplers{});
   return all;
 }
 
 SamplerKind sampler_kind(std::string_view name) {
-  return name == "independent" ? SamplerKind::kIndependent : SamplerKind::kSobol;
+  SamplerKind kind;
+  with_named(Samplers{}, name, [&]<class T>(std::type_identity<T>) { kind = SamplerKind(T()); });
+  return kind;
 }
 
 }  // namespace etd

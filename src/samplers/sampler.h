@@ -3,13 +3,47 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
+#include "core/hash.h"
+#include "core/tagged.h"
 #include "core/vec.h"
 #include "params/declaration.h"
 
 namespace etd {
 
-enum class SamplerKind : uint8_t { kIndependent, kSobol };
+// The place of a number.
+struct SampleNumber {
+  uint64_t key = 0;  // of seed, replicate and stream
+  uint32_t index = 0, dimension = 0;
+
+  // The same for all indices.
+  ETD_FN uint64_t hash() const { return hash_combine(key, dimension); }
+};
+
+// What a kind of numbers promises.
+struct SamplerTraits {
+  bool stratified = false;  // in elementary intervals, over each aligned block of 2^m indices
+};
+
+// What kind of numbers: one of the list (sampler_list.h). It gives
+//   float get_1d(n), Vec2 get_2d(n)   uniform in [0, 1)
+//   uint64_t get_bits(n)              a uniform number of 64 binary digits
+class SamplerKind {
+ public:
+  // The default, sobol.
+  SamplerKind();
+  template <class T>
+  explicit SamplerKind(const T& kind);
+
+  std::string_view name() const;
+  SamplerTraits traits() const;
+  bool operator==(const SamplerKind& other) const { return name() == other.name(); }
+
+ private:
+  friend class Sampler;
+  TaggedStorage<4, 4> storage_;
+};
 
 class Sampler {
  public:
@@ -18,7 +52,7 @@ class Sampler {
   // Selects the sample; the next number is of dimension 0.
   void start(uint64_t stream, uint32_t replicate, uint32_t index);
   // Jumps to a dimension, so that what a path vertex draws does not depend on what earlier vertices used.
-  void set_dimension(uint32_t dimension) { dimension_ = dimension; }
+  void set_dimension(uint32_t dimension) { next_.dimension = dimension; }
 
   // Uniform in [0, 1). Each call of get_1d and get_2d uses one (padded) dimension.
   float get_1d();
@@ -34,14 +68,21 @@ class Sampler {
   uint64_t key(uint64_t salt) const;
 
  private:
+  SampleNumber advance() {
+    const SampleNumber n = next_;
+    ++next_.dimension;
+    return n;
+  }
+
   SamplerKind kind_;
   uint64_t seed_;
-  uint64_t key_ = 0;
-  uint32_t index_ = 0, dimension_ = 0;
+  SampleNumber next_;
 };
 
-// Declarations of all samplers, and the kind that a declared name stands for.
+// The parameters of every sampler.
+std::vector<ParamDecl> sampler_params();
 std::span<const ModelDecl* const> sampler_models();
+// The kind of that declared name; the default for an unknown one.
 SamplerKind sampler_kind(std::string_view name);
 
 }  // namespace etd

@@ -233,7 +233,8 @@ CompiledScene compile(const SceneDescription& description, const CompileOptions&
 
   warn_if_nothing_shows(*scene, info->names, diagnostics);
   scene->light_data.kept = nullptr;
-  scene->light_sampler = LightSampler(scene->lights, LightChoice::kPower, to_float(view.position - scene->origin));
+  scene->viewer = to_float(view.position - scene->origin);
+  scene->light_sampler = make_light_sampler(LightSampler().name(), {scene->lights, scene->viewer});
   scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
   scene->seen = seen_by_camera(*scene, options.width, options.height);
   scene->emission_disks = EmissionDisks(bounding_sphere(info->summary.bounds, scene->origin), scene->seen);

@@ -87,8 +87,9 @@ class Scene {
   std::vector<FloatSource> light_alphas;  // by light; only as long as the last that has holes
   std::vector<uint32_t> infinite_lights;  // those that rays can find
   LightData light_data;
-  LightSampler light_sampler;
+  LightSampler light_sampler;  // the default one; integrators may make another
   Camera camera;
+  Point3 viewer;  // where the camera is, about
   PixelFootprint footprint;
   CameraData camera_data;
   Filter filter;

@@ -104,17 +104,17 @@ edit(core/distribution.cpp [[bins_[small.index].alias = large.index;]]
 
 fault(correlated-dimensions "all two-dimensional numbers of a path are the same" "Sampler.*:SobolSampler.*")
 edit(samplers/sampler.cpp [[Vec2 Sampler::get_2d() {
-  const uint64_t h = hash_combine(key_, dimension_++);]] [[Vec2 Sampler::get_2d() {
-  const uint64_t h = hash_combine(key_, FAULT ? 0 : dimension_++);]])
+  const SampleNumber n = advance();]] [[Vec2 Sampler::get_2d() {
+  const SampleNumber n = FAULT ? SampleNumber{next_.key, next_.index, 0} : advance();]])
 
 fault(correlated-pixels "all pixels use the same numbers" "Sampler.*:SobolSampler.*")
-edit(samplers/sampler.cpp [[key_ = hash_combine(seed_, replicate, stream);]]
-     [[key_ = hash_combine(seed_, replicate, FAULT ? 0 : stream);]])
+edit(samplers/sampler.cpp [[next_.key = hash_combine(seed_, replicate, stream);]]
+     [[next_.key = hash_combine(seed_, replicate, FAULT ? 0 : stream);]])
 
 fault(replicates-reuse-seed "all replicates use the same numbers" "Sampler.*:SobolSampler.*:Film.*")
-edit(samplers/sampler.cpp [[  index_ = index;]]
-     [[  if (FAULT) key_ = hash_combine(seed_, 0, stream);
-  index_ = index;]])
+edit(samplers/sampler.cpp [[  next_.index = index;]]
+     [[  if (FAULT) next_.key = hash_combine(seed_, 0, stream);
+  next_.index = index;]])
 
 fault(filter-not-normalised "the gaussian filter's weights are 2 % too low" "Filter.*")
 edit(filters/separable.h [[shape_.value(d) * 2.0f / (integral_ * density)]]
@@ -178,8 +178,8 @@ edit(lights/projection.cpp [[(texel_area * v.z * v.z * v.z)]] [[(FAULT ? texel_a
 
 closed_forms(tests sky_and_square)
 fault(light-choice-probability "the choice of a light is weighted as if it were uniform" "LightSampler.*:${tests}")
-edit(light_sampling/light_sampler.cpp [[return Choice{light, table_.probability(light)};]]
-     [[return Choice{light, FAULT ? 1.0f / 2 : table_.probability(light)};]])
+edit(light_sampling/light_table.h [[return LightChoice{light, table->probability(light)};]]
+     [[return LightChoice{light, FAULT ? 1.0f / 2 : table->probability(light)};]])
 
 fault(lights-of-objects-in-place "lights of objects shine where they are described, not where instances put them" "Kinds/ObjectLight.*")
 edit(scene/place_lights.cpp [[places.push_back(to_world);]] [[places.push_back(FAULT ? TransformPath() : to_world);]])
@@ -201,8 +201,8 @@ edit(integrators/path.cpp [[if (!only_scattering && mis) {]] [[if (!FAULT && !on
 
 closed_forms(tests sky_and_square)
 fault(mis-without-choice-of-light "the weight of emission leaves out the chance that the light is chosen" "${tests}:StatisticalAgreement.*lamps*")
-edit(integrators/path.cpp [[pdf_light = lights.probability(light) * pdf;]]
-     [[pdf_light = (FAULT ? 1.0f : lights.probability(light)) * pdf;]])
+edit(integrators/path.cpp [[pdf_light = lights_.probability(light, &receiver) * pdf;]]
+     [[pdf_light = (FAULT ? 1.0f : lights_.probability(light, &receiver)) * pdf;]])
 
 fault(power-heuristic-squares-one "the power heuristic squares one of the two densities alone" "VerifyScene.*")
 edit(core/mis.h [[p2 / (p2 + o2) : larger;]] [[p2 / (p2 + (FAULT ? other : o2)) : larger;]])
@@ -218,7 +218,7 @@ edit(core/mis.h [[(other > 0.0f ? 0.5f : 1.0f)]] [[(FAULT || other > 0.0f ? 0.5f
 
 fault(uniform-choice-weighted-by-power "lights chosen all alike are weighted as if by their power" "VerifyScene.*")
 edit(integrators/next_event.h [[const float pdf = choice->probability * s->pdf;]]
-     [[const float pdf = (FAULT ? scene.light_sampler.probability(choice->light) : choice->probability) * s->pdf;]])
+     [[const float pdf = (FAULT ? scene.light_sampler.probability(choice->light, &receiver) : choice->probability) * s->pdf;]])
 
 closed_forms(tests latlong_sky equal_area_sky)
 fault(compensated-alone "light sampling alone uses the density that leaves out the average" "${tests}:StatisticalAgreement.*sky*")

@@ -1,9 +1,11 @@
-// The battery over the choices of lights: each light as often as its probability says, no light that emits left out.
+// The battery over light samplers: each light as often as its probability says, no light that emits left out.
+#include "light_sampling/light_sampler.h"
+
 #include <fmt/format.h>
 
-#include <memory>
-
+#include "light_sampling/light_sampler_list.h"
 #include "lights/examples.h"
+#include "params/model_list.h"
 #include "verify/battery/models.h"
 #include "verify/battery/worst.h"
 
@@ -11,58 +13,70 @@ namespace etd {
 
 namespace {
 
-std::vector<Light> example_lights() {
-  std::vector<Light> lights;
-  for (const LightExample& e : light_examples()) lights.push_back(e.light);
+const std::vector<Light>& example_lights() {
+  static const std::vector<Light> lights = [] {
+    std::vector<Light> all;
+    for (const LightExample& e : light_examples()) all.push_back(e.light);
+    return all;
+  }();
   return lights;
+}
+
+LightReceiver receiver(Point3 p, Vec3 n, float time) {
+  SurfacePoint s;
+  s.p = p;
+  s.ng = s.ns = normalize(n);
+  return {s, time};
 }
 
 }  // namespace
 
-LightChoiceModel light_choice_model(const std::string& name, LightChoice choice) {
-  const auto sampler = std::make_shared<const LightSampler>(example_lights(), choice);
-  return {name, choice, [sampler](double u) { return sampler->sample(u); },
-          [sampler](uint32_t light) { return sampler->probability(light); }};
+LightChoiceModel light_choice_model(const std::string& name) {
+  const LightSamplerContext context{example_lights()};
+  LightChoiceModel model{name, {}, {}, {}};
+  with_named(LightSamplers{}, name, [&]<class T>(std::type_identity<T>) {
+    if constexpr (requires { T::law(context); }) model.law = T::law(context);
+  });
+  const LightSampler sampler = make_light_sampler(name, context);
+  model.sample = [sampler](double u, const LightReceiver* r) { return sampler.sample(u, r); };
+  model.probability = [sampler](uint32_t light, const LightReceiver* r) { return sampler.probability(light, r); };
+  return model;
 }
 
 // Walks evenly through the numbers, so that shares are exact up to a step for each light.
 std::vector<CheckResult> check_light_choice(const LightChoiceModel& m) {
   Worst shares(m.name, "shares = probabilities", 1e-5), told(m.name, "told with the sample", 0.0);
   Worst law(m.name, "probabilities as promised", 1e-5), complete(m.name, "every light can be chosen", 0.0);
-  const std::vector<Light> lights = example_lights();
+  const std::vector<Light>& lights = example_lights();
   constexpr int kSteps = 1 << 20;
-  std::vector<double> share(lights.size(), 0.0);
-  for (int i = 0; i < kSteps; ++i) {
-    const auto c = m.sample((i + 0.5) / kSteps);
-    if (!c) continue;
-    told.add(c->probability == m.probability(c->light) ? 0.0 : 1.0, [&] { return light_examples()[c->light].name; });
-    share[c->light] += 1.0 / kSteps;
+  const LightReceiver somewhere[] = {receiver({0.2f, -0.4f, 3}, {0.3f, 0.1f, -1}, 0.25f),
+                                     receiver({-40, 2, 9}, {0, 0, 1}, 0.75f)};
+  for (const LightReceiver* r : {static_cast<const LightReceiver*>(nullptr), &somewhere[0], &somewhere[1]}) {
+    std::vector<double> share(lights.size(), 0.0);
+    for (int i = 0; i < kSteps; ++i) {
+      const auto c = m.sample((i + 0.5) / kSteps, r);
+      if (!c) continue;
+      told.add(c->probability == m.probability(c->light, r) ? 0.0 : 1.0,
+               [&] { return light_examples()[c->light].name; });
+      share[c->light] += 1.0 / kSteps;
+    }
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+      const auto where = [&] { return light_examples()[i].name; };
+      const double p = m.probability(i, r);
+      shares.add(std::abs(share[i] - p), where);
+      if (!m.law.empty()) law.add(std::abs(p - m.law[i]), where);
+      complete.add(p > 0.0 || luminance(lights[i].power()) == 0.0f ? 0.0 : 1.0, where);
+    }
   }
-  double finite = 0, infinite = 0, seen = 0;
-  for (const Light& l : lights) {
-    (l.is_infinite() ? infinite : finite) += static_cast<double>(luminance(l.power()));
-    if (!l.is_infinite()) seen += LightSampler::seen(l, {});
-  }
-  for (uint32_t i = 0; i < lights.size(); ++i) {
-    const auto where = [&] { return light_examples()[i].name; };
-    const double p = m.probability(i), power = luminance(lights[i].power());
-    constexpr double kSeen = LightSampler::kSeenShare;
-    const double of_its_kind =
-        lights[i].is_infinite() ? LightSampler::kInfiniteShare * power / infinite
-                                : (1.0 - LightSampler::kInfiniteShare) *
-                                      ((1 - kSeen) * power / finite + kSeen * LightSampler::seen(lights[i], {}) / seen);
-    shares.add(std::abs(share[i] - p), where);
-    law.add(std::abs(p - (m.choice == LightChoice::kUniform ? 1.0 / static_cast<double>(lights.size()) : of_its_kind)),
-            where);
-    complete.add(p > 0.0 || power == 0.0 ? 0.0 : 1.0, where);
-  }
-  return {shares.result(), told.result(), law.result(), complete.result()};
+  std::vector<CheckResult> results{shares.result(), told.result(), complete.result()};
+  if (!m.law.empty()) results.push_back(law.result());
+  return results;
 }
 
 std::vector<BatterySubject> light_sampler_subjects() {
   std::vector<BatterySubject> subjects;
-  for (const auto& [name, choice] : {std::pair("power", LightChoice::kPower), {"uniform", LightChoice::kUniform}})
-    subjects.push_back({"lightsampler", name, name, [model = light_choice_model(name, choice)](const BatteryOptions&) {
+  for (const LightSamplerModel& m : light_sampler_models())
+    subjects.push_back({"lightsampler", m.name, m.name, [model = light_choice_model(m.name)](const BatteryOptions&) {
                           return check_light_choice(model);
                         }});
   return subjects;

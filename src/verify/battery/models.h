@@ -68,11 +68,11 @@ std::vector<CheckResult> check_warp(const WarpModel& model);
 // The choice among the lights of the example list.
 struct LightChoiceModel {
   std::string name;
-  LightChoice choice;  // the law that the probabilities follow
-  std::function<std::optional<LightSampler::Choice>(double u)> sample;
-  std::function<float(uint32_t light)> probability;
+  std::vector<double> law;  // that the probabilities follow whatever the receiver; empty: none that is known
+  std::function<std::optional<LightChoice>(double u, const LightReceiver* receiver)> sample;
+  std::function<float(uint32_t light, const LightReceiver* receiver)> probability;
 };
-LightChoiceModel light_choice_model(const std::string& name, LightChoice choice);
+LightChoiceModel light_choice_model(const std::string& name);
 std::vector<CheckResult> check_light_choice(const LightChoiceModel& model);
 
 struct TextureModel {

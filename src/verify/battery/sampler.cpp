@@ -166,7 +166,7 @@ CheckResult check_keys(const SamplerModel& model, uint64_t first_seed) {
 
 SamplerModel sampler_model(const std::string& name) {
   const SamplerKind kind = sampler_kind(name);
-  return {name, kind == SamplerKind::kSobol, [kind](uint64_t seed) {
+  return {name, kind.traits().stratified, [kind](uint64_t seed) {
             const auto s = std::make_shared<Sampler>(kind, seed);
             return SamplerFunctions{.start = [s](uint64_t stream, uint32_t replicate,
                                                  uint32_t index) { s->start(stream, replicate, index); },

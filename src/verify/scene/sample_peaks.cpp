@@ -16,13 +16,14 @@ constexpr int kPaths = 512, kDepth = 3, kLightSamples = 16;
 constexpr double kMargin = 4.0;
 
 // The brightest emission, and the most that a sampled light can bring to a surface that reflects 1 to all sides.
-void look_at_lights(const Scene& scene, Point3 p, const ShadingContext& context, HashStream& rng, double& emission,
-                    double& arriving) {
+void look_at_lights(const Scene& scene, const SurfacePoint& point, const ShadingContext& context, HashStream& rng,
+                    double& emission, double& arriving) {
+  const LightReceiver receiver(point, context.time);
   for (int i = 0; i < kLightSamples; ++i) {
-    const auto choice = scene.light_sampler.sample(static_cast<double>(rng.next_float()));
+    const auto choice = scene.light_sampler.sample(static_cast<double>(rng.next_float()), &receiver);
     if (!choice) return;
     const float x = rng.next_float(), y = rng.next_float();
-    const auto s = scene.lights[choice->light].sample_li(p, {x, y}, context);
+    const auto s = scene.lights[choice->light].sample_li(point.p, {x, y}, context);
     if (!s) continue;
     const double radiance = max_value(s->radiance);
     if (!s->is_delta) emission = std::max(emission, radiance);
@@ -47,7 +48,7 @@ SamplePeaks find_sample_peaks(const Scene& scene, int width, int height) {
       Hit hit;
       if (!scene.intersect(ray, hit)) break;
       const SurfaceHit surface = scene.surface(hit);
-      look_at_lights(scene, surface.point.p, context, rng, emission, arriving);
+      look_at_lights(scene, surface.point, context, rng, emission, arriving);
       const Shading shading = scene.shade(surface, context, rng);
       const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
       const float x = rng.next_float(), y = rng.next_float(), z = rng.next_float();
