@@ -24,7 +24,7 @@ Made make(std::vector<Param> params, CameraData& data) {
   const ModelUse use = use_of("perspective", std::move(params));
   check_params(PerspectiveCamera::decl(), use, diagnostics);
   const ParamReader reader(PerspectiveCamera::decl(), use, diagnostics);
-  const Aperture a = Aperture::create(reader, source_path("tests/scenes/closed/parts"), data);
+  const Aperture a = Aperture::create(reader, {source_path("tests/scenes/closed/parts")}, data);
   return {a, diagnostics.format_all()};
 }
 

@@ -79,5 +79,75 @@ TEST(SceneInMemory, AnImageLooksLikeItsFile) {
   }
 }
 
+// Renders the world with "a.pfm" as a file and as an image in memory, and expects the same bits.
+void expect_as_file(const std::string& world, int width, int height) {
+  SCOPED_TRACE(world);
+  std::vector<float> texels;
+  for (int i = 0; i < width * height * 3; ++i) texels.push_back(static_cast<float>(i * 37 % 64) / 64);
+  const TempFolder folder, without_file;
+  folder.write("a.pfm", encode_pfm(width, height, texels));
+  SceneDescription made = read(world, without_file);
+  made.images["a.pfm"] = std::make_shared<const Image>(width, height, 3, texels);
+  const Film expected = render_description(read(world, folder), overrides());
+  expect_same_bits(render_description(made, overrides()), expected);
+  // The image is what the picture is made of.
+  made.images["a.pfm"] = std::make_shared<const Image>(width, height, 3, std::vector<float>(texels.size(), 0.5f));
+  EXPECT_NE(picture(render_description(made, overrides())), picture(expected));
+}
+
+const std::string kBall = "Material \"diffuse\"\nShape \"sphere\" \"float radius\" 0.7\n";
+const std::string kFile = " \"string filename\" \"a.pfm\"\n";
+
+TEST(SceneInMemory, ImagesOfLightsLookLikeTheirFiles) {
+  expect_as_file("LightSource \"infinite\"" + kFile + kBall, 8, 8);
+  expect_as_file("LightSource \"infinite\"" + kFile + kBall, 8, 4);
+  expect_as_file("LightSource \"infinite\" \"point3 portal\" [ -1 -1 2  -1 1 2  1 1 2  1 -1 2 ]" + kFile + kBall, 8, 8);
+  const std::string above = "AttributeBegin\nTranslate 0 0 3\nRotate 180 0 1 0\n";
+  expect_as_file(above + "LightSource \"goniometric\" \"rgb I\" [ 9 9 9 ]" + kFile + "AttributeEnd\n" + kBall, 8, 8);
+  expect_as_file(above + "LightSource \"projection\" \"float scale\" 9" + kFile + "AttributeEnd\n" + kBall, 6, 4);
+  const std::string emits = "AreaLightSource \"diffuse\" \"bool twosided\" true" + kFile;
+  expect_as_file(emits + kBall, 6, 4);
+  expect_as_file(emits +
+                     "Shape \"trianglemesh\" \"point3 P\" [ -1 -1 0  1 -1 0  0 1 0 ] \"point2 uv\" [ 0 0  1 0  0 1 ]\n"
+                     "Shape \"bilinearmesh\" \"point3 P\" [ -1 -1 1  1 -1 1  -1 -0.8 1  1 -0.8 1 ]\n",
+                 6, 4);
+}
+
+TEST(SceneInMemory, AnApertureLooksLikeItsFile) {
+  const TempFolder folder, without_file;
+  std::vector<float> texels(4 * 6, 0.0f);
+  for (size_t i = 0; i < texels.size(); i += 5) texels[i] = static_cast<float>(i + 1);
+  std::vector<float> rgb;
+  for (const float t : texels) rgb.insert(rgb.end(), 3, t);
+  folder.write("a.pfm", encode_pfm(4, 6, rgb));
+  for (const std::string camera : {"perspective", "orthographic"}) {
+    const auto with_lens = [&](SceneDescription scene) {
+      Param radius = number("lensradius", 0.5), aperture = text("aperture", "a.pfm");
+      scene.camera = use_of(camera, {radius, number("focaldistance", 2), aperture});
+      return scene;
+    };
+    const Film expected = render_description(with_lens(read(kBall, folder)), overrides());
+    SceneDescription made = with_lens(read(kBall, without_file));
+    made.images["a.pfm"] = std::make_shared<const Image>(4, 6, 3, rgb);
+    expect_same_bits(render_description(made, overrides()), expected);
+  }
+}
+
+// Light that is not finite would spoil everything, wherever its image comes from.
+TEST(SceneInMemory, ImagesOfLightsAreMended) {
+  const TempFolder folder;
+  SceneDescription scene = read("LightSource \"infinite\" \"string layer\" \"x\"" + kFile + kBall, folder);
+  std::vector<float> texels(8 * 4 * 3, 1.0f);
+  texels[3] = std::numeric_limits<float>::quiet_NaN();
+  scene.images["a.pfm"] = std::make_shared<const Image>(8, 4, 3, texels);
+  Diagnostics diagnostics;
+  EXPECT_TRUE(compile(scene, {.width = 16, .height = 12}, diagnostics).scene);
+  EXPECT_NE(diagnostics.format_all().find("its texel (1, 0) is not finite"), std::string::npos);
+  EXPECT_NE(diagnostics.format_all().find("\"layer\" changes nothing"), std::string::npos);
+  scene.images["a.pfm"] =
+      std::make_shared<const Image>(8, 4, 3, std::vector<float>(8 * 4 * 3, std::numeric_limits<float>::infinity()));
+  EXPECT_FALSE(compile(scene, {.width = 16, .height = 12}, diagnostics).scene);
+}
+
 }  // namespace
 }  // namespace etd

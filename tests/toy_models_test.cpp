@@ -184,11 +184,54 @@ struct ToyLight {
 TEST(ToyModels, Light) {
   LightData data;
   const LightContext context{Transform(), {}, data};
-  const auto toy = made<Lights, ToyLight>([&](const ParamReader& p) { return *ToyLight::create(p, context); });
+  const auto toy = made<StandingLights, ToyLight>([&](const ParamReader& p) { return *ToyLight::create(p, context); });
   const auto sample = [](const auto& l) { return l.sample_li({}, {}, {.time = 0.5f}, LightSampling::kComplete); };
   const auto s = dispatched<std::optional<LightSample>, Lights>(toy, sample);
   ASSERT_TRUE(s);
   EXPECT_EQ(s->radiance[0], 0.125f);
+}
+
+// Its power is all that tells it from the toy light.
+template <class Surface>
+struct ToyLightOnSurface : ToyLight {
+  float area;
+  Spectrum power() const { return Spectrum(size * area); }
+};
+
+struct ToyAreaLight {
+  template <class Surface>
+  using On = ToyLightOnSurface<Surface>;
+  static const ModelDecl& decl() { return toy_decl(Family::kAreaLight); }
+  template <class Keep>
+  static void create(const ParamReader& p, const AreaLightContext& context, Keep&& keep) {
+    const auto size = static_cast<float>(p.number("size"));
+    context.surfaces.with_all([&](const auto&... kinds) {
+      const auto add = [&]<class Surface>(const std::vector<Surface>& surfaces) {
+        for (const Surface& s : surfaces) keep(On<Surface>{{size}, s.area()});
+      };
+      (add(kinds), ...);
+    });
+  }
+};
+
+TEST(ToyModels, AreaLight) {
+  using Longer = LightsOf<WithToy<AreaLightModels, ToyAreaLight>>::Type;
+  EXPECT_EQ(Longer::kCount, Lights::kCount + 4);
+  PatchMesh mesh;
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}};
+  mesh.patches = {{0, 1, 2, 3}};
+  const ShapeSurfaces surfaces{.patches = {PatchSurface(mesh, 0)}};
+  LightData data;
+  Spectrum power;
+  made<AreaLightModels, ToyAreaLight>([&](const ParamReader& p) {
+    ToyAreaLight::create(p, {surfaces, {}, data}, [&](const auto& light) {
+      TaggedStorage<2048> storage;
+      storage.store<Longer>(light);
+      power += dispatch<Spectrum, Longer>(storage, [](const auto& l) { return l.power(); });
+    });
+    return ToyAreaLight();
+  });
+  EXPECT_FLOAT_EQ(power[0], 0.5f);
 }
 
 // Every light alike, but the first for receivers behind a plane.

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/warp.h"
-#include "io/image.h"
 #include "io/layer_param.h"
-#include "io/missing_file.h"
+#include "io/named_images.h"
 
 namespace etd {
 
@@ -43,7 +42,7 @@ std::vector<ParamDecl> Aperture::params() {
       layer_param("aperture")};
 }
 
-Aperture Aperture::create(const ParamReader& p, const std::filesystem::path& folder, CameraData& data) {
+Aperture Aperture::create(const ParamReader& p, const ImageSource& images, CameraData& data) {
   const Param* file = p.given("aperture");
   const Param* blades = p.given("blades");
   const int corners = p.integer("blades");
@@ -52,7 +51,7 @@ Aperture Aperture::create(const ParamReader& p, const std::filesystem::path& fol
   if (file && corners > 0)
     p.diagnostics().error(blades->loc, "an opening has \"blades\" or an \"aperture\", not both");
   else if (file)
-    a = is_shape(file->strings[0]) ? named(file->strings[0], data) : of_file(p, *file, folder, data);
+    a = is_shape(file->strings[0]) ? named(file->strings[0], data) : of_file(p, *file, images, data);
   else if (corners == 1 || corners == 2)
     p.diagnostics().error(blades->value_loc, fmt::format("{} blades leave no opening", corners),
                           "valid: 0 (round), or 3 and more");
@@ -96,22 +95,11 @@ Aperture Aperture::of_weights(int width, int height, const std::vector<double>& 
   return a;
 }
 
-Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::filesystem::path& folder,
-                           CameraData& data) {
-  const std::string& name = file.strings[0];
-  const auto fail = [&](const std::string& problem, const std::string& hint) {
-    p.diagnostics().error(
-        file.value_loc, problem,
-        (hint.empty() ? "" : hint + "\n") + "valid: an image file, or gaussian, square, pentagon, star");
-    return Aperture();
-  };
-  const ImageResult result = read_finite_image(folder / name, {{}, layer_name(p), p.diagnostics().limits()});
-  if (!result.image)
-    return fail(fmt::format("cannot read image \"{}\": {}", name, result.error),
-                result.needs_layer ? kLayerHint : missing_file_hint({folder}, name));
-  for (const std::string& note : result.notes)
-    p.diagnostics().note(file.value_loc, fmt::format("image \"{}\": {}", name, note));
-  const Image& image = *result.image;
+Aperture Aperture::of_file(const ParamReader& p, const Param& file, const ImageSource& images, CameraData& data) {
+  static const std::string valid = "valid: an image file, or gaussian, square, pentagon, star";
+  const std::shared_ptr<const Image> read = read_named_image(p, file, images, valid);
+  if (!read) return {};
+  const Image& image = *read;
   const int colours = std::min(image.channels(), 3);
   std::vector<double> weights;
   double total = 0;
@@ -122,7 +110,11 @@ Aperture Aperture::of_file(const ParamReader& p, const Param& file, const std::f
       weights.push_back(std::max(0.0, sum / colours));
       total += weights.back();
     }
-  if (!(total > 0)) return fail(fmt::format("image \"{}\" can't be an opening: it is black", name), {});
+  if (!(total > 0)) {
+    p.diagnostics().error(file.value_loc, fmt::format("image \"{}\" can't be an opening: it is black", file.strings[0]),
+                          valid);
+    return {};
+  }
   return of_weights(image.width(), image.height(), weights, data);
 }
 

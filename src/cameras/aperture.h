@@ -1,8 +1,6 @@
 // The opening of a lens: what blurred points of light look like.
 #pragma once
 
-#include <filesystem>
-
 #include "cameras/camera.h"
 
 namespace etd {
@@ -16,7 +14,7 @@ class Aperture {
 
   static std::vector<ParamDecl> params();
   // `data` keeps an image's distribution.
-  static Aperture create(const ParamReader& p, const std::filesystem::path& folder, CameraData& data);
+  static Aperture create(const ParamReader& p, const ImageSource& images, CameraData& data);
 
   // Uniform over a disk or polygon, in proportion to the values of an image.
   Vec2 sample(Vec2 u) const {
@@ -38,8 +36,7 @@ class Aperture {
   static Aperture star(int points, float outer, float inner);
   static Aperture named(const std::string& name, CameraData& data);
   static Aperture of_weights(int width, int height, const std::vector<double>& weights, CameraData& data);
-  static Aperture of_file(const ParamReader& p, const Param& file, const std::filesystem::path& folder,
-                          CameraData& data);
+  static Aperture of_file(const ParamReader& p, const Param& file, const ImageSource& images, CameraData& data);
 
   Shape shape_ = Shape::kRound;
   // A star has corners at the radius outer_, the first one up, and between them others at inner_. A regular polygon is

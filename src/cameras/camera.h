@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -13,6 +12,7 @@
 #include "core/ray.h"
 #include "core/tagged.h"
 #include "core/transform.h"
+#include "io/named_images.h"
 #include "params/declaration.h"
 
 namespace etd {
@@ -68,7 +68,7 @@ class Camera {
 struct CameraFrame {
   Transform camera_to_world;  // to the recentred world
   int width = 0, height = 0;
-  std::filesystem::path folder;  // that file names start from
+  ImageSource images = {};  // that apertures name
 };
 
 // What cameras are too small to hold themselves. Nothing in it moves while cameras are made.

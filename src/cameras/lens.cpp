@@ -21,7 +21,7 @@ std::vector<ParamDecl> Lens::params() {
 
 Lens Lens::create(const ParamReader& p, const CameraFrame& frame, CameraData& data) {
   Lens lens;
-  lens.aperture = Aperture::create(p, frame.folder, data);
+  lens.aperture = Aperture::create(p, frame.images, data);
   const double radius = p.number("lensradius");
   lens.x = to_float(frame.camera_to_world.vector({radius, 0, 0}));
   lens.y = to_float(frame.camera_to_world.vector({0, radius, 0}));

@@ -29,6 +29,23 @@ struct TypeList {
   }
 };
 
+namespace detail {
+
+template <class... Lists>
+struct Joined;
+template <class... Ts>
+struct Joined<TypeList<Ts...>> {
+  using Type = TypeList<Ts...>;
+};
+template <class... As, class... Bs, class... Rest>
+struct Joined<TypeList<As...>, TypeList<Bs...>, Rest...> : Joined<TypeList<As..., Bs...>, Rest...> {};
+
+}  // namespace detail
+
+// One list of all types of several.
+template <class... Lists>
+using JoinedList = typename detail::Joined<Lists...>::Type;
+
 // An aligned buffer for one value of a family, with its tag.
 template <size_t Size, size_t Align = 16>
 struct TaggedStorage {

@@ -153,7 +153,10 @@ struct MendedImage {
   int x = 0, y = 0;   // of the first
 };
 MendedImage mend_texels(Image image);
-// read_image() as textures and lights want it: mended, with a note. An image without a finite texel is an error.
+bool is_finite(const Image& image);
+// The image mended, with a note. One without a finite texel is an error.
+ImageResult finite_image(Image image);
+// read_image() as textures and lights want it: as finite_image() gives it.
 ImageResult read_finite_image(const std::filesystem::path& path, const ImageOptions& options = {});
 
 // The image without an alpha that is 1 everywhere.

@@ -77,13 +77,19 @@ MendedImage mend_texels(Image image) {
   return result;
 }
 
-ImageResult read_finite_image(const std::filesystem::path& path, const ImageOptions& options) {
-  ImageResult result = read_image(path, options);
-  if (!result.image) return result;
-  MendedImage mended = mend_texels(std::move(*result.image));
+bool is_finite(const Image& image) {
+  if (image.format().kind() == TexelFormat::Kind::kByte) return true;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (!is_finite_texel(image, x, y)) return false;
+  return true;
+}
+
+ImageResult finite_image(Image image) {
+  ImageResult result;
+  MendedImage mended = mend_texels(std::move(image));
   const auto all = static_cast<size_t>(mended.image.width()) * static_cast<size_t>(mended.image.height());
   if (mended.texels == all) {
-    result.image.reset();
     result.error = "none of its texels is finite";
     return result;
   }
@@ -96,6 +102,16 @@ ImageResult read_finite_image(const std::filesystem::path& path, const ImageOpti
                           "neighbours",
                           mended.texels, mended.x, mended.y));
   return result;
+}
+
+ImageResult read_finite_image(const std::filesystem::path& path, const ImageOptions& options) {
+  ImageResult read = read_image(path, options);
+  if (!read.image) return read;
+  ImageResult finite = finite_image(std::move(*read.image));
+  read.image = std::move(finite.image);
+  read.error = std::move(finite.error);
+  read.notes.insert(read.notes.end(), finite.notes.begin(), finite.notes.end());
+  return read;
 }
 
 }  // namespace etd

@@ -52,8 +52,7 @@ std::vector<double> PowerLightSampler::law(const LightSamplerContext& context) {
   }
   std::vector<double> law;
   for (const Light& l : context.lights) {
-    const double of_finite =
-        (1 - kSeenShare) * power_of(l) / finite + kSeenShare * seen(l, context.viewer) / all_seen;
+    const double of_finite = (1 - kSeenShare) * power_of(l) / finite + kSeenShare * seen(l, context.viewer) / all_seen;
     law.push_back(l.is_infinite() ? kInfiniteShare * power_of(l) / infinite : (1 - kInfiniteShare) * of_finite);
   }
   return law;

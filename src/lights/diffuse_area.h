@@ -4,36 +4,10 @@
 #include "core/frame.h"
 #include "core/warp.h"
 #include "lights/area_emission.h"
-#include "lights/light.h"
-#include "lights/light_params.h"
-#include "lights/light_surfaces.h"
+#include "lights/area_light.h"
 #include "shapes/placement.h"
-#include "textures/resolve.h"
 
 namespace etd {
-
-inline const ModelDecl& diffuse_area_decl() {
-  static const ModelDecl d{
-      Family::kAreaLight,
-      "diffuse",
-      "Emits the same radiance to all directions from every point of a shape.",
-      {{.name = "L",
-        .type = ParamType::kSpectrum,
-        .default_value = 1.0,
-        .min = 0,
-        .unit = "W/(m^2 sr)",
-        .doc = "Emitted radiance."},
-       filename_param("Image of the radiance over the shape's uv, instead of L; (0, 0) is its lower left corner.",
-                      false),
-       layer_param(),
-       scale_param(),
-       power_param(),
-       {.name = "twosided",
-        .type = ParamType::kBool,
-        .default_value = false,
-        .doc = "Emit from both sides, not just from that of the surface normal."}}};
-  return d;
-}
 
 template <class Surface>
 struct DiffuseAreaLight {
@@ -41,7 +15,6 @@ struct DiffuseAreaLight {
   Surface surface;
   Spectrum mean;  // of the radiance over the surface
 
-  static const ModelDecl& decl() { return diffuse_area_decl(); }
   // `points`: along each side of the square of samples from which the mean of an image is taken.
   DiffuseAreaLight(const AreaEmission& e, const Surface& s, int points = 1)
       : emission(e), surface(s), mean(mean_radiance(e, s, points)) {}
@@ -145,6 +118,15 @@ struct DiffuseAreaLight {
     // A bright spot between the points would never be chosen for sampling if the mean were 0.
     return is_black(found) ? e.radiance * 1e-4f : found;
   }
+};
+
+// The model that scenes name.
+struct DiffuseArea {
+  template <class Surface>
+  using On = DiffuseAreaLight<Surface>;
+
+  static const ModelDecl& decl();
+  static AreaLights create(const ParamReader& p, const AreaLightContext& context);
 };
 
 }  // namespace etd

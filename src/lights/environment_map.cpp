@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include "io/layer_param.h"
-#include "io/missing_file.h"
+#include "io/named_images.h"
 #include "lights/light_data.h"
 
 namespace etd {
-
-namespace {}  // namespace
 
 std::optional<EnvironmentMap::Layout> EnvironmentMap::layout_of(int width, int height) {
   if (width == height) return Layout::kEqualArea;
@@ -128,32 +126,26 @@ std::filesystem::path light_image_key(const ParamReader& params, const std::file
   return (folder / params.given("filename")->strings[0]).string() + "\n" + layer_name(params);
 }
 
-std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
-                                      const LightData& data) {
+std::shared_ptr<const Image> read_light_image(const ParamReader& params, const ImageSource& source,
+                                              const LightData& data) {
   const Param* file = params.given("filename");
-  if (!file) return {};
-  const std::string& name = file->strings[0];
-  const std::filesystem::path key = light_image_key(params, folder);
-  if (data.kept)
-    if (const auto known = data.kept->find(key); known != data.kept->end()) return known->second;
-  Diagnostics& diagnostics = params.diagnostics();
-  ImageResult result = read_finite_image(folder / name, {{}, layer_name(params), diagnostics.limits()});
-  if (!result.image)
-    diagnostics.error(file->value_loc, fmt::format("cannot read image \"{}\": {}", name, result.error),
-                      result.needs_layer ? kLayerHint : missing_file_hint({folder}, name));
-  for (const std::string& note : result.notes)
-    diagnostics.note(file->value_loc, fmt::format("image \"{}\": {}", name, note));
-  if (data.kept && result.image) data.kept->emplace(key, *result.image);
-  return std::move(result.image);
+  if (!file) return nullptr;
+  LightImages* const kept = source.find(file->strings[0]) ? nullptr : data.kept;
+  const std::filesystem::path key = light_image_key(params, source.folder);
+  if (kept)
+    if (const auto known = kept->find(key); known != kept->end()) return known->second;
+  std::shared_ptr<const Image> image = read_named_image(params, *file, source);
+  if (kept && image) kept->emplace(key, image);
+  return image;
 }
 
 const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context) {
   const Param* file = params.given("filename");
   if (!file) return nullptr;
   const auto [entry, is_new] =
-      context.data.environment_of.try_emplace(light_image_key(params, context.folder), nullptr);
+      context.data.environment_of.try_emplace(light_image_key(params, context.images.folder), nullptr);
   if (entry->second || !is_new) return entry->second;
-  const std::optional<Image> image = read_light_image(params, context.folder, context.data);
+  const std::shared_ptr<const Image> image = read_light_image(params, context.images, context.data);
   if (!image) return nullptr;
   if (EnvironmentMap::layout_of(image->width(), image->height()))
     return entry->second = &context.data.environments.emplace_back(*image);

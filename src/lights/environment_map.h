@@ -66,9 +66,9 @@ class EnvironmentMap {
 // Which image of which file a light with a "filename" means.
 std::filesystem::path light_image_key(const ParamReader& params, const std::filesystem::path& folder);
 // Reads the image of a light's "filename", with finite values. Reports what keeps it from being one, and then gives
-// nothing.
-std::optional<Image> read_light_image(const ParamReader& params, const std::filesystem::path& folder,
-                                      const LightData& data);
+// null.
+std::shared_ptr<const Image> read_light_image(const ParamReader& params, const ImageSource& source,
+                                              const LightData& data);
 // The same as a map of directions, which context.data keeps, read once for all lights of one file; null on failure.
 const EnvironmentMap* read_environment(const ParamReader& params, const LightContext& context);
 

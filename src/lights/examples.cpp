@@ -78,7 +78,7 @@ LightExample goniometric(std::string name) {
 
 LightExample projection() {
   auto data = std::make_shared<LightData>();
-  LightData::Slide slide{&data->images.emplace_back(uneven_image(6, 3)), nullptr};
+  LightData::Slide slide{data->keep(std::make_shared<const Image>(uneven_image(6, 3))), nullptr};
   ProjectionIntensity intensity = ProjectionIntensity::of(slide, turned(), 1.6f, 0.8f, *data);
   intensity.scale = 2.0f;
   return {"projection", Light(PointLight<ProjectionIntensity>{{0.5f, 0.2f, -0.3f}, intensity}), nullptr, nullptr, data};
@@ -101,7 +101,7 @@ LightExample rectangle(std::string name, bool textured, bool two_sided, bool inv
   }
   m.triangles = {{0, 1, 2}, {0, 2, 3}};
   auto mesh = std::make_shared<const Mesh>(std::move(m));
-  const Image* image = textured ? &data->images.emplace_back(uneven_image(6, 3)) : nullptr;
+  const Image* image = textured ? data->keep(std::make_shared<const Image>(uneven_image(6, 3))) : nullptr;
   const AreaEmission emission{Spectrum::rgb(1.0f, 2.0f, 0.5f), image, two_sided, invisible};
   const DiffuseAreaLight<RectangleSurface> light(emission, *RectangleSurface::find(*mesh, 0), 400);
   return {std::move(name), Light(light), mesh, nullptr, data};
@@ -111,7 +111,7 @@ LightExample textured_ball() {
   auto data = std::make_shared<LightData>();
   const Transform t = Transform::translate({0.1, 0.2, -0.1}) * Transform::scale({0.5, 0.5, 0.5});
   auto q = std::make_shared<const Quadric>(t, false);
-  const AreaEmission emission{Spectrum(1.5f), &data->images.emplace_back(uneven_image(6, 3)), false};
+  const AreaEmission emission{Spectrum(1.5f), data->keep(std::make_shared<const Image>(uneven_image(6, 3))), false};
   const DiffuseAreaLight<QuadricSurface> light(emission, QuadricSurface(*q), 400);
   return {"diffuse(sphere, image)", Light(light), nullptr, q, data};
 }

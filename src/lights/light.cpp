@@ -102,29 +102,15 @@ Spectrum Light::power() const {
 
 uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }
 
-namespace {
-std::vector<const ModelDecl*> declarations_of(Family family) {
-  std::vector<const ModelDecl*> all = declarations(Lights{});
-  std::erase_if(all, [family](const ModelDecl* decl) { return decl->family != family; });
-  return all;
-}
-}  // namespace
-
 std::span<const ModelDecl* const> light_models() {
-  static const std::vector<const ModelDecl*> all = declarations_of(Family::kLight);
-  return all;
-}
-
-std::span<const ModelDecl* const> area_light_models() {
-  static const std::vector<const ModelDecl*> all = declarations_of(Family::kAreaLight);
+  static const std::vector<const ModelDecl*> all = declarations(StandingLights{});
   return all;
 }
 
 std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics) {
   std::optional<Light> light;
-  with_model(Lights{}, use, diagnostics, [&]<class T>(std::type_identity<T>, const ParamReader& p) {
-    if constexpr (requires { T::create(p, context); })
-      if (const auto made = T::create(p, context)) light.emplace(*made);
+  with_model(StandingLights{}, use, diagnostics, [&]<class T>(std::type_identity<T>, const ParamReader& p) {
+    if (const auto made = T::create(p, context)) light.emplace(*made);
   });
   return light;
 }

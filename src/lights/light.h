@@ -3,7 +3,6 @@
 // sampling the light finds it.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -11,6 +10,7 @@
 #include "core/ray.h"
 #include "core/tagged.h"
 #include "core/transform.h"
+#include "io/named_images.h"
 #include "lights/emission_disks.h"
 #include "params/declaration.h"
 #include "shapes/surface_point.h"
@@ -113,16 +113,15 @@ struct LightData;
 
 // What a light is made in, beside its parameters.
 struct LightContext {
-  Transform to_world;            // to the recentred world
-  std::filesystem::path folder;  // where relative file names start
-  LightData& data;               // keeps what the light refers to
-  Transform from_world = {};     // of the scene file to the recentred one
+  Transform to_world;         // to the recentred world
+  ImageSource images;         // that lights name
+  LightData& data;            // keeps what the light refers to
+  Transform from_world = {};  // of the scene file to the recentred one
 };
 
 std::span<const ModelDecl* const> light_models();
 // Makes the light of a checked use that is no area light; nothing for an unknown name and when something is wrong,
 // which is reported.
 std::optional<Light> make_light(const ModelUse& use, const LightContext& context, Diagnostics& diagnostics);
-std::span<const ModelDecl* const> area_light_models();
 
 }  // namespace etd

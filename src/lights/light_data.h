@@ -4,6 +4,8 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <vector>
 
 #include "core/animated_transform.h"
 #include "lights/environment_map.h"
@@ -12,14 +14,19 @@
 namespace etd {
 
 // Images that lights have read, by file.
-using LightImages = std::map<std::filesystem::path, Image>;
+using LightImages = std::map<std::filesystem::path, std::shared_ptr<const Image>>;
 
 struct LightData {
   std::deque<EnvironmentMap> environments;
   std::deque<PortalMap> portals;
-  std::deque<Image> images;
+  std::vector<std::shared_ptr<const Image>> images;
   std::deque<GridDistribution> grids;
   std::deque<AnimatedTransform> motions;
+  // What keeps an image, and where it is then.
+  const Image* keep(std::shared_ptr<const Image> image) { return images.emplace_back(std::move(image)).get(); }
+
+  // The image of a use of an area light, null where it could not be read: it is on many shapes.
+  std::map<const ModelUse*, const Image*> image_of;
   // These are the maps of the files that were read, null where that failed: a light of an object is read once for all
   // of its instances.
   std::map<std::filesystem::path, const EnvironmentMap*> environment_of;
@@ -35,7 +42,7 @@ struct LightData {
     size_t sum = 0;
     for (const EnvironmentMap& map : environments) sum += map.bytes();
     for (const PortalMap& portal : portals) sum += portal.bytes();
-    for (const Image& image : images) sum += image.bytes();
+    for (const auto& image : images) sum += image->bytes();
     for (const GridDistribution& grid : grids) sum += grid.bytes();
     return sum;
   }

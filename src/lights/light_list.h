@@ -1,4 +1,4 @@
-// The list of lights, for those who make them. To add one: its header, and its name in the list.
+// The lists of lights, for those who make them. To add one: its header, and its name in the list of its kind.
 #pragma once
 
 #include "lights/constant_infinite.h"
@@ -13,10 +13,25 @@
 
 namespace etd {
 
-using Lights = TypeList<DiffuseAreaLight<TriangleSurface>, DiffuseAreaLight<RectangleSurface>,
-                        DiffuseAreaLight<PatchSurface>, DiffuseAreaLight<QuadricSurface>, PortalInfiniteLight,
-                        ImageInfiniteLight, ConstantInfiniteLight, DistantLight, PointLight<IsotropicIntensity>,
-                        PointLight<SpotIntensity>, PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+// Those on shapes. A type T of the list has T::decl(), T::create(), and T::On<Surface>, its light on a surface.
+using AreaLightModels = TypeList<DiffuseArea>;
+
+// Those that stand by themselves.
+using StandingLights = TypeList<PortalInfiniteLight, ImageInfiniteLight, ConstantInfiniteLight, DistantLight,
+                                PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
+                                PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;
+
+template <class T>
+using OnEachSurface = TypeList<typename T::template On<TriangleSurface>, typename T::template On<RectangleSurface>,
+                               typename T::template On<PatchSurface>, typename T::template On<QuadricSurface>>;
+
+template <class Models>
+struct LightsOf;
+template <class... Ts>
+struct LightsOf<TypeList<Ts...>> {
+  using Type = JoinedList<OnEachSurface<Ts>..., StandingLights>;
+};
+using Lights = LightsOf<AreaLightModels>::Type;
 
 template <class T>
 Light::Light(const T& light) {

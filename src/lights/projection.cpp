@@ -16,11 +16,11 @@ std::optional<PointLight<ProjectionIntensity>> ProjectionIntensity::create(const
   const bool flat = !(fov < 180.0);
   if (flat) p.diagnostics().error(p.given("fov")->value_loc, "the field of view must be below 180 degrees");
   if (!p.given("filename")) return {};
-  const auto [entry, is_new] = context.data.slide_of.try_emplace({light_image_key(p, context.folder), fov});
+  const auto [entry, is_new] = context.data.slide_of.try_emplace({light_image_key(p, context.images.folder), fov});
   LightData::Slide& slide = entry->second;
   if (is_new)
-    if (std::optional<Image> image = read_light_image(p, context.folder, context.data))
-      slide.image = &context.data.images.emplace_back(std::move(*image));
+    if (auto image = read_light_image(p, context.images, context.data))
+      slide.image = context.data.keep(std::move(image));
   if (!slide.image || !axes || flat) return {};
   const double half = std::tan(0.5 * radians(fov));
   const double aspect = static_cast<double>(slide.image->width()) / slide.image->height();

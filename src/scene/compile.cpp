@@ -164,9 +164,10 @@ void compile_camera(const SceneDescription& description, const CompileOptions& o
   const Transform recentre = Transform::translate(-scene.origin);
   const Transform size = TransformParts::of(to_world.start.matrix()).rest();
   const bool moves = to_world.is_moving();
-  scene.camera = make_camera(
-      description.camera, {moves ? size : recentre * to_world.start, options.width, options.height, description.folder},
-      scene.camera_data, diagnostics);
+  scene.camera =
+      make_camera(description.camera,
+                  {moves ? size : recentre * to_world.start, options.width, options.height, description.image_source()},
+                  scene.camera_data, diagnostics);
   const ModelDecl* decl = find_model(Family::kCamera, description.camera.model);
   if (!decl || !has_place) return;
   const Shutter shutter = read_shutter({*decl, description.camera, diagnostics});

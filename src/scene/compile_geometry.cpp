@@ -301,7 +301,7 @@ class GeometryCompiler {
   }
 
   void add_lights() {
-    AreaLightCompiler lights(description_.folder, scene_, info_, diagnostics_);
+    AreaLightCompiler lights(description_.image_source(), scene_, info_, diagnostics_);
     for (const Emitter& e : emitters_) {
       const ModelUse& use = description_.area_lights[static_cast<size_t>(e.shape->area_light)];
       const size_t first = scene_.lights.size();

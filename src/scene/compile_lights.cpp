@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lights/light_list.h"
+#include "lights/area_light.h"
 #include "scene/check_transform.h"
 #include "scene/place_lights.h"
 #include "scene/registry.h"
@@ -13,10 +13,9 @@ namespace etd {
 
 namespace {
 
-// The surfaces of an emitting mesh, and which of them each triangle belongs to: rectangles are counted first.
+// The surfaces of an emitting mesh, and which of them each triangle belongs to.
 struct MeshSurfaces {
-  std::vector<RectangleSurface> rectangles;
-  std::vector<TriangleSurface> triangles;
+  ShapeSurfaces all;
   std::vector<uint32_t> of_triangle;
 
   explicit MeshSurfaces(const Mesh& mesh) {
@@ -24,47 +23,24 @@ struct MeshSurfaces {
     std::vector<bool> in_rectangle;
     for (uint32_t t = 0; t < count; ++t) {
       if (const auto r = RectangleSurface::find(mesh, t)) {
-        of_triangle.insert(of_triangle.end(), 2, static_cast<uint32_t>(rectangles.size()));
+        of_triangle.insert(of_triangle.end(), 2, static_cast<uint32_t>(all.rectangles.size()));
         in_rectangle.insert(in_rectangle.end(), 2, true);
-        rectangles.push_back(*r);
+        all.rectangles.push_back(*r);
         ++t;
       } else {
-        of_triangle.push_back(static_cast<uint32_t>(triangles.size()));
+        of_triangle.push_back(static_cast<uint32_t>(all.triangles.size()));
         in_rectangle.push_back(false);
-        triangles.emplace_back(mesh, t);
+        all.triangles.emplace_back(mesh, t);
       }
     }
     for (uint32_t t = 0; t < count; ++t)
-      if (!in_rectangle[t]) of_triangle[t] += static_cast<uint32_t>(rectangles.size());
+      if (!in_rectangle[t]) of_triangle[t] += static_cast<uint32_t>(all.rectangles.size());
   }
-  size_t size() const { return rectangles.size() + triangles.size(); }
   bool has_area() const {
-    return !rectangles.empty() ||
-           std::any_of(triangles.begin(), triangles.end(), [](const TriangleSurface& t) { return t.area() > 0; });
+    return !all.rectangles.empty() ||
+           std::any_of(all.triangles.begin(), all.triangles.end(), [](const auto& t) { return t.area() > 0; });
   }
 };
-
-template <class Surface>
-std::vector<DiffuseAreaLight<Surface>> lights_on(const std::vector<Surface>& surfaces, const AreaEmission& emission,
-                                                 int points) {
-  std::vector<DiffuseAreaLight<Surface>> lights;
-  for (const Surface& s : surfaces) lights.emplace_back(emission, s, points);
-  return lights;
-}
-
-template <class Surface>
-Spectrum total_power(const std::vector<DiffuseAreaLight<Surface>>& lights) {
-  Spectrum sum;
-  for (const auto& light : lights) sum += light.power();
-  return sum;
-}
-
-// Side of the square of points that see every texel of an image spread over so many surfaces.
-int points_for(const AreaEmission& emission, size_t surfaces) {
-  if (!emission.image) return 1;
-  const double texels = 2.0 * std::max(emission.image->width(), emission.image->height());
-  return static_cast<int>(std::clamp(std::ceil(texels / std::sqrt(static_cast<double>(surfaces))), 8.0, 1024.0));
-}
 
 // A light of infinite power could not be chosen by its power, and would be dark.
 void check_power(const Spectrum& power, const ModelUse& use, Diagnostics& diagnostics) {
@@ -76,23 +52,13 @@ void check_power(const Spectrum& power, const ModelUse& use, Diagnostics& diagno
 
 }  // namespace
 
-AreaEmission AreaLightCompiler::emission(const ModelUse& use, bool invisible) {
-  const ParamReader p(diffuse_area_decl(), use, diagnostics_);
-  AreaEmission e;
-  e.two_sided = p.boolean("twosided");
-  e.invisible = invisible;
-  if (!p.given("filename")) {
-    e.radiance = emission_value(p, "L");
-    return e;
-  }
-  const auto [it, is_new] = images_.try_emplace(&use, nullptr);
-  if (is_new) {
-    reject_radiance_beside_file(p);
-    if (auto image = read_light_image(p, folder_, scene_.light_data))
-      it->second = &scene_.light_data.images.emplace_back(std::move(*image));
-  }
-  e.image = it->second;
-  return e;
+uint32_t AreaLightCompiler::add(const ModelUse& use, const ShapeSurfaces& surfaces, bool invisible) {
+  const auto first = static_cast<uint32_t>(scene_.lights.size());
+  const AreaLights made = make_area_lights(use, {surfaces, images_, scene_.light_data, invisible}, diagnostics_);
+  check_power(made.power, use, diagnostics_);
+  scene_.lights.insert(scene_.lights.end(), made.lights.begin(), made.lights.end());
+  ++info_.summary.lights[use.model + " area light"];
+  return first;
 }
 
 void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invisible) {
@@ -100,52 +66,31 @@ void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invis
   if (!surfaces.has_area())
     diagnostics_.warning(use.loc, "an area light on a mesh without an area gives no light",
                          "its triangles are missing, or flat as lines");
-  const AreaEmission e = emission(use, invisible);
-  auto rectangles = lights_on(surfaces.rectangles, e, points_for(e, surfaces.size()));
-  auto triangles = lights_on(surfaces.triangles, e, points_for(e, surfaces.size()));
-  const Spectrum power = total_power(rectangles) + total_power(triangles);
-  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", power);
-  check_power(power * scale, use, diagnostics_);
-  const auto first = static_cast<uint32_t>(scene_.lights.size());
-  for (auto& light : rectangles) scene_.lights.push_back(Light(light.scaled(scale)));
-  for (auto& light : triangles) scene_.lights.push_back(Light(light.scaled(scale)));
+  const uint32_t first = add(use, surfaces.all, invisible);
   scene_.mesh_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
   for (const uint32_t surface : surfaces.of_triangle) scene_.face_lights.push_back(first + surface);
-  ++info_.summary.lights[use.model + " area light"];
 }
 
 void AreaLightCompiler::add_patches(const ModelUse& use, uint32_t index, bool invisible) {
   const PatchMesh& mesh = scene_.geometry.patch_meshes[index];
-  std::vector<PatchSurface> surfaces;
-  for (uint32_t i = 0; i < mesh.patches.size(); ++i) surfaces.emplace_back(mesh, i);
-  const AreaEmission e = emission(use, invisible);
-  const auto lights = lights_on(surfaces, e, points_for(e, surfaces.size()));
-  const Spectrum power = total_power(lights);
-  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", power);
-  check_power(power * scale, use, diagnostics_);
+  const auto count = static_cast<uint32_t>(mesh.patches.size());
+  ShapeSurfaces surfaces;
+  for (uint32_t i = 0; i < count; ++i) surfaces.patches.emplace_back(mesh, i);
+  const uint32_t first = add(use, surfaces, invisible);
   scene_.patch_bindings[index].first_light = static_cast<uint32_t>(scene_.face_lights.size());
-  for (const auto& light : lights) {
-    scene_.face_lights.push_back(static_cast<uint32_t>(scene_.lights.size()));
-    scene_.lights.push_back(Light(light.scaled(scale)));
-  }
-  ++info_.summary.lights[use.model + " area light"];
+  for (uint32_t i = 0; i < count; ++i) scene_.face_lights.push_back(first + i);
 }
 
 void AreaLightCompiler::add_quadric(const ModelUse& use, uint32_t index, bool invisible) {
-  const AreaEmission e = emission(use, invisible);
-  const DiffuseAreaLight<QuadricSurface> light(e, QuadricSurface(scene_.geometry.quadrics[index]), points_for(e, 1));
-  const float scale = emission_scale(ParamReader(diffuse_area_decl(), use, diagnostics_), "power", light.power());
-  check_power(light.power() * scale, use, diagnostics_);
-  scene_.quadric_bindings[index].first_light = static_cast<uint32_t>(scene_.lights.size());
-  scene_.lights.push_back(Light(light.scaled(scale)));
-  ++info_.summary.lights[use.model + " area light"];
+  const ShapeSurfaces surfaces{.quadrics = {QuadricSurface(scene_.geometry.quadrics[index])}};
+  scene_.quadric_bindings[index].first_light = add(use, surfaces, invisible);
 }
 
 namespace {
 
 // A light that moves is made in a space of its own, which turns and translates.
-std::optional<Light> make_moving_light(const ModelUse& use, const TransformPath& to_world,
-                                       const std::filesystem::path& folder, Scene& scene, Diagnostics& diagnostics) {
+std::optional<Light> make_moving_light(const ModelUse& use, const TransformPath& to_world, const ImageSource& images,
+                                       Scene& scene, Diagnostics& diagnostics) {
   const Transform size = TransformParts::of(to_world.at(0).matrix()).rest();
   const TransformPath path = TransformPath().then(Transform::translate(-scene.origin)).then(to_world);
   const AnimatedTransform& motion = scene.light_data.motions.emplace_back(path.then(size.inverse()), Vec3d{}, 1.0);
@@ -157,20 +102,20 @@ std::optional<Light> make_moving_light(const ModelUse& use, const TransformPath&
                       "the portal is in the world, not on the light");
     return {};
   }
-  const auto light = make_light(use, {size, folder, scene.light_data, {}}, diagnostics);
+  const auto light = make_light(use, {size, images, scene.light_data, {}}, diagnostics);
   scene.moves = true;
   return light ? std::optional(light->moving(motion)) : std::nullopt;
 }
 
 // The light in one of its places.
-void add_light(const LightDesc& desc, const TransformPath& place, const std::filesystem::path& folder, Scene& scene,
+void add_light(const LightDesc& desc, const TransformPath& place, const ImageSource& images, Scene& scene,
                SceneInfo& info, Diagnostics& diagnostics) {
   const TransformPath to_world = place.then(desc.to_world);
   const Transform from_world = Transform::translate(-scene.origin) * place.at(0);
   const auto light =
       to_world.moves()
-          ? make_moving_light(desc.use, to_world, folder, scene, diagnostics)
-          : make_light(desc.use, {from_world * desc.to_world.start, folder, scene.light_data, from_world}, diagnostics);
+          ? make_moving_light(desc.use, to_world, images, scene, diagnostics)
+          : make_light(desc.use, {from_world * desc.to_world.start, images, scene.light_data, from_world}, diagnostics);
   if (!light) return;
   check_power(light->power(), desc.use, diagnostics);
   if (light->is_infinite() && !light->is_delta())
@@ -200,11 +145,11 @@ void compile_lights(const SceneDescription& description, Scene& scene, SceneInfo
     if (!check_transform(desc.to_world, desc.use.loc, "light", diagnostics)) continue;
     const size_t first = scene.lights.size();
     for (const TransformPath& place : placed.places)
-      add_light(desc, place, description.folder, scene, info, diagnostics);
+      add_light(desc, place, description.image_source(), scene, info, diagnostics);
     explain_places(placed, first < scene.lights.size() ? &scene.lights[first] : nullptr, diagnostics);
     if (!placed.places.empty()) continue;
     LightData unused;  // a mistake in an object without an instance is a mistake too
-    make_light(desc.use, {desc.to_world.start, description.folder, unused, {}}, diagnostics);
+    make_light(desc.use, {desc.to_world.start, description.image_source(), unused, {}}, diagnostics);
   }
 }
 

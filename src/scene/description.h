@@ -74,7 +74,7 @@ struct SceneDescription : ViewDescription {
   std::filesystem::path file;    // of the scene, for messages and metadata
   std::filesystem::path folder;  // that relative file names in it start from
 
-  NamedImages images;  // of textures, where these are no files
+  NamedImages images;  // that are no files
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;
   std::vector<ModelUse> area_lights;
@@ -82,6 +82,9 @@ struct SceneDescription : ViewDescription {
   std::vector<ObjectDesc> objects;
   std::vector<InstanceDesc> instances;
   std::vector<LightDesc> lights;
+
+  // Refers to `images`.
+  ImageSource image_source() const { return {folder, &images}; }
 };
 
 }  // namespace etd

@@ -3,6 +3,7 @@
 #include "cameras/camera.h"
 #include "film/film_model.h"
 #include "filters/filter.h"
+#include "lights/area_light.h"
 #include "lights/light.h"
 #include "materials/material.h"
 #include "samplers/sampler.h"
