@@ -31,9 +31,11 @@ std::vector<Variant> LightIntegrator::variants(const Scene&, int) {
 }
 
 LightIntegrator::LightIntegrator(const Scene& scene, const LightSettings& settings, const IntegratorContext& context)
-    : scene_(scene), settings_(settings), context_(context), camera_splat_(scene, context.width, context.height) {
-  if (settings.light_choice == LightChoice::kUniform) uniform_.emplace(scene.lights, LightChoice::kUniform);
-}
+    : scene_(scene),
+      settings_(settings),
+      context_(context),
+      camera_splat_(scene, context.width, context.height),
+      lights_(scene.lights, scene.light_sampler, scene.emission_disks, settings.light_choice) {}
 
 std::string LightIntegrator::bias() const {
   std::string bias = kUnseenByLightPaths;
@@ -100,14 +102,13 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
   const auto at_vertex = [&](const LightPathVertex& v) {
     if (!v.scatter.bsdf().has_smooth_lobe()) return true;
     sampler.set_dimension(v.dimension);
-    if (const auto c = join(v.point, v.ray.time))
-      splat(v.point, *c, v.ray, v.depth,
+    if (const auto c = join(v.surface.point, v.ray.time))
+      splat(v.surface.point, *c, v.ray, v.depth,
             v.flux * v.scatter.eval_cos(v.wo(), c->wi, TransportMode::kImportance, v.rng) * c->weight);
     return true;
   };
-  follow_light_path(scene_, uniform_ ? *uniform_ : scene_.light_sampler,
-                    {settings_.max_depth, settings_.roulette_depth, settings_.from_camera}, sampler, rays, at_light,
-                    at_vertex);
+  follow_light_path(scene_, lights_, {settings_.max_depth, settings_.roulette_depth, settings_.from_camera}, sampler,
+                    rays, at_light, at_vertex);
   return rays;
 }
 
