@@ -24,11 +24,10 @@ inline CameraPathStart start_camera_path(const Scene& scene, int x, int y, Sampl
   const FilterSample film = scene.filter.sample(sampler.get_2d());
   out.weight = film.weight;
   out.distance2 = sqr(film.offset.x) + sqr(film.offset.y);
-  const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
-                        sampler.get_2d(),
-                        !scene.moves ? 0.0f
-                        : time       ? *time
-                                     : sampler.get_1d()};
+  CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
+                  sampler.get_2d(),
+                  0.0f};
+  if (scene.moves) at.time = time ? *time : sampler.get_1d();
   return {at, scene.camera.generate_ray(at)};
 }
 

@@ -51,7 +51,7 @@ const ModelDecl& SppmIntegrator::decl() {
          .unit = "MiB",
          .doc = "Memory for the photons of an iteration; fewer paths start at lights where all would not fit."},
         {.name = "neardelta",
-         .default_value = 0.1,
+         .default_value = 0.05,
          .min = 0,
          .max = 1,
          .doc = "Paths from the camera pass surfaces by whose lobes are all narrower than this alpha, as by mirrors, "

@@ -8,9 +8,9 @@ namespace etd {
 
 class EmissionSampler {
  public:
-  // Share of the paths that start in proportion to flux: of finite lights their power, of infinite ones the flux through
-  // the smallest disk, times the number of disks, because so many paths are begun for each that goes there. The others
-  // are shared as for light sampling, so that a lamp in a room has some of its own whatever shines outside.
+  // Share of the paths that start in proportion to flux: of finite lights their power, of infinite ones the flux
+  // through the smallest disk, times the number of disks, because so many paths are begun for each that goes there. The
+  // others are shared as for light sampling, so that a lamp in a room has some of its own whatever shines outside.
   static constexpr double kFluxShare = 0.75;
 
   // `lights` chooses for light sampling; kUniform: all lights that emit alike.
