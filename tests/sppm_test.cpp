@@ -5,6 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
 #include "expect_agreement.h"
 #include "formats/pbrt/reader.h"
 #include "render/session.h"
@@ -80,24 +84,34 @@ TEST(Sppm, TakesPbrtsParametersAndSaysItsRadiiAndThatErrorsAreOfTheNoiseAlone) {
   EXPECT_NE(all.find("etendue:pixels = correlated"), std::string::npos) << all;
 }
 
-// Two radii, extrapolated to 0, are path tracing's image.
+// Two radii, extrapolated to 0, are path tracing's image, of everything that path tracing can see too. `effort`: times
+// the samples.
+void expect_image_of_path(const std::string& scene, const char* direct, double visible, uint32_t effort,
+                          size_t scenes) {
+  const auto films = [&](const TestRun& run) {
+    RenderOverrides o = overrides(512 * effort * run.more, 1 + run.fresh_seeds);
+    o.integrator = "path";
+    Film path = render_scene(source_path(scene), o);
+    o = overrides(128 * effort * run.more, 2 + run.fresh_seeds);
+    o.set = {{"integrator.photonsperiteration", "4000"},
+             {"integrator.paths", "from_camera"},
+             {"integrator.directlight", direct},
+             {"integrator.radiusscale", "0.8"}};
+    const Film wide = render_scene(source_path(scene), o);
+    o.seed = 3 + run.fresh_seeds;
+    o.set.back().second = "0.4";
+    return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_scene(source_path(scene), o)));
+  };
+  expect_agreement(scene, repeated_level(kFamilyLevel, scenes, film_test_count(16, 16)), films, visible);
+}
+
 class StatisticalSppm : public testing::TestWithParam<const char*> {};
 
 TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
-  const std::string scene = GetParam();
-  const auto films = [&](const TestRun& run) {
-    RenderOverrides o = overrides(1536 * run.more, 1 + run.fresh_seeds);
-    o.integrator = "path";
-    Film path = render_agree(scene, o);
-    o = overrides(512 * run.more, 2 + run.fresh_seeds);
-    o.set = {{"integrator.photonsperiteration", "4000"}, {"integrator.radiusscale", "0.5"}};
-    const Film wide = render_agree(scene, o);
-    o.seed = 3 + run.fresh_seeds;
-    o.set.back().second = "0.25";
-    return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_agree(scene, o)));
-  };
-  expect_agreement(scene, repeated_level(kFamilyLevel, 2, film_test_count(16, 16)), films);
+  expect_image_of_path(std::string("tests/scenes/agree/") + GetParam() + ".pbrt", "photons", 0.02, 1, 3);
 }
+
+class StatisticalSppmSlope : public testing::TestWithParam<const char*> {};
 
 // Root of the mean square of the difference, over pixels and channels.
 double rms_difference(const Film& a, const std::vector<float>& b) {
@@ -109,7 +123,7 @@ double rms_difference(const Film& a, const std::vector<float>& b) {
 
 // With alpha = 2 / 3 noise falls as N^(-1/3) (Knaus and Zwicker 2011, section 4), and so does bias. So few photons in
 // so small a radius make the noise of photons far larger than that of the paths from the camera, which falls faster.
-TEST_P(StatisticalSppm, DifferenceFallsAsTheCubeRootOfTheIterations) {
+TEST_P(StatisticalSppmSlope, DifferenceFallsAsTheCubeRootOfTheIterations) {
   RenderOverrides o = overrides(2048, 1);
   o.integrator = "path";
   o.set = {{"integrator.components", "indirect"}};
@@ -128,7 +142,32 @@ TEST_P(StatisticalSppm, DifferenceFallsAsTheCubeRootOfTheIterations) {
   EXPECT_NEAR((xy - x * y) / (xx - x * x), -1.0 / 3, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm, testing::Values("conductor_box", "glass_caustic"));
+INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm,
+                         testing::Values("conductor_box", "glass_caustic", "holes_and_mixtures"));
+INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppmSlope, testing::Values("conductor_box", "glass_caustic"));
+
+// All scenes that estimators are compared on, and all closed forms.
+class SlowSppm : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> all;
+  for (const std::string folder : {"tests/scenes/agree", "tests/scenes/closed"})
+    for (const auto& entry : std::filesystem::directory_iterator(source_path(folder)))
+      if (entry.path().extension() == ".pbrt") all.push_back(folder + "/" + entry.path().filename().string());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+TEST_P(SlowSppm, ConvergesToTheImageOfPathTracing) {
+  for (const char* direct : {"photons", "sampled"})
+    expect_image_of_path(GetParam(), direct, 0.05, 2, 2 * all_scenes().size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SlowSppm, testing::ValuesIn(all_scenes()), [](const auto& scene) {
+  std::string name = scene.param.substr(13);
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
 
 }  // namespace
 }  // namespace etd

@@ -134,6 +134,7 @@ struct ToyClosure {
     return BsdfSample{-wo, Spectrum(1.0f), 1.0f, kTransmission | kDelta};
   }
   Lobe lobes() const { return kTransmission | kDelta; }
+  float widest_alpha() const { return 0.0f; }
   Spectrum albedo(Vec3) const { return Spectrum(1.0f); }
 };
 

@@ -58,13 +58,13 @@ void print_info(const PreparedRender& prepared) {
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
   const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
   const MemoryForecast forecast = forecast_memory(prepared);
-  const size_t parts = geometry + accelerator + textures + lights + forecast.film;
+  const size_t parts = geometry + accelerator + textures + lights + forecast.film + forecast.integrator;
   if (scene.textures.cache)
     row("", fmt::format("images of textures in tiles of {}, at most {} in memory", s.textures.cache_folder.string(),
                         bytes_text(scene.textures.cache_limit)));
   for (const auto& [name, bytes] :
        {std::pair("geometry", geometry), std::pair("accelerator", accelerator), std::pair("textures", textures),
-        std::pair("lights", lights), std::pair("film", forecast.film),
+        std::pair("lights", lights), std::pair("film", forecast.film), std::pair("integrator", forecast.integrator),
         std::pair("program", forecast.peak - std::min(forecast.peak, parts)), std::pair("together", forecast.peak)})
     answer("  {:<12}{}\n", name, bytes_text(bytes));
 }

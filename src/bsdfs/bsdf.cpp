@@ -21,6 +21,10 @@ Lobe Bsdf::lobes() const {
   return dispatch<Lobe, Closures>(storage_, [](const auto& c) { return c.lobes(); });
 }
 
+float Bsdf::widest_alpha() const {
+  return dispatch<float, Closures>(storage_, [](const auto& c) { return c.widest_alpha(); });
+}
+
 Spectrum Bsdf::albedo(Vec3 wo) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.albedo(wo); });
 }

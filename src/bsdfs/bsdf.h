@@ -65,6 +65,9 @@ class Bsdf {
   std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides = kBothSides) const;
   // Union of the lobes that the closure has.
   Lobe lobes() const;
+  // How wide the widest lobe is that is no delta: 1 where one is diffuse, of a microfacet lobe the greater alpha, and 0
+  // where all are deltas.
+  float widest_alpha() const;
   // Hemispherical-directional reflectance towards wo, or an estimate of it where none is closed: the albedo feature.
   Spectrum albedo(Vec3 wo) const;
 

@@ -19,6 +19,7 @@ struct SmoothConductor {
     return BsdfSample{{-wo.x, -wo.y, wo.z}, albedo(wo), 1.0f, kReflection | kDelta, 1.0f};
   }
   Lobe lobes() const { return kReflection | kDelta; }
+  float widest_alpha() const { return 0.0f; }
   Spectrum albedo(Vec3 wo) const { return fresnel_conductor(std::min(std::abs(wo.z), 1.0f), eta, k); }
 };
 
@@ -58,6 +59,7 @@ struct RoughConductor {
   }
 
   Lobe lobes() const { return kReflection | kGlossy; }
+  float widest_alpha() const { return std::max(ggx.ax, ggx.ay); }
   // This is the albedo of the flat surface: exact as alpha goes to 0; above that it leaves out what is lost between
   // facets and that they are tilted. No closed form is known, and as a feature the metal's colour is what matters.
   Spectrum albedo(Vec3 wo) const { return fresnel_conductor(std::min(std::abs(wo.z), 1.0f), eta, k); }

@@ -36,6 +36,7 @@ struct DiffuseTransmission {
         (is_black(reflectance) ? kNoLobe : kReflection) | (is_black(transmittance) ? kNoLobe : kTransmission);
     return sides == kNoLobe ? kNoLobe : sides | kDiffuse;
   }
+  float widest_alpha() const { return 1.0f; }
   Spectrum albedo(Vec3) const { return reflectance + transmittance; }
 
  private:

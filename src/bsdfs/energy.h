@@ -64,6 +64,7 @@ struct EnergyCompensated {
     return s;
   }
   Lobe lobes() const { return rough.lobes(); }
+  float widest_alpha() const { return rough.widest_alpha(); }
   Spectrum albedo(Vec3 wo) const { return rough.albedo(wo); }
 
  private:

@@ -25,6 +25,7 @@ struct Lambert {
     return BsdfSample{wi, reflectance, pdf_hemisphere_cosine(std::abs(wi.z)), kReflection | kDiffuse, 1.0f};
   }
   Lobe lobes() const { return is_black(reflectance) ? kNoLobe : kReflection | kDiffuse; }
+  float widest_alpha() const { return 1.0f; }
   Spectrum albedo(Vec3) const { return reflectance; }
 };
 

@@ -18,13 +18,16 @@ struct CameraPathStart {
 };
 
 // Draws a sample of a pixel (full-image coordinates) and notes the filter's weight and the place on the film in `out`.
-inline CameraPathStart start_camera_path(const Scene& scene, int x, int y, Sampler& sampler, PixelSample& out) {
+// `time`, in [0, 1), is where the shutter's interval is cut; without one, each sample draws its own.
+inline CameraPathStart start_camera_path(const Scene& scene, int x, int y, Sampler& sampler, PixelSample& out,
+                                         std::optional<float> time = {}) {
   const FilterSample film = scene.filter.sample(sampler.get_2d());
   out.weight = film.weight;
   out.distance2 = sqr(film.offset.x) + sqr(film.offset.y);
-  const CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
-                        sampler.get_2d(),
-                        scene.moves ? sampler.get_1d() : 0.0f};
+  CameraSample at{{static_cast<float>(x) + 0.5f + film.offset.x, static_cast<float>(y) + 0.5f + film.offset.y},
+                  sampler.get_2d(),
+                  0.0f};
+  if (scene.moves) at.time = time ? *time : sampler.get_1d();
   return {at, scene.camera.generate_ray(at)};
 }
 

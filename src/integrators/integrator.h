@@ -42,6 +42,8 @@ class Integrator {
   virtual IntegratorTraits traits() const = 0;
   // What makes the image differ from the unbiased answer, for its metadata; empty when nothing does.
   virtual std::string bias() const { return {}; }
+  // Bytes of memory that it takes at most while it renders, beside the film.
+  virtual uint64_t bytes() const { return 0; }
   // A pass is a number of phases, one after the other. Each is a step on one thread, begin(), and then a set of work
   // items on all of them: photons and then what they bring to pixels, for example.
   virtual uint32_t phases(const Pass&) const { return 1; }

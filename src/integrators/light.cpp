@@ -35,7 +35,7 @@ LightIntegrator::LightIntegrator(const Scene& scene, const LightSettings& settin
       settings_(settings),
       context_(context),
       camera_splat_(scene, context.width, context.height),
-      lights_(light_sampler_of(scene, settings)) {}
+      lights_(scene.lights, light_sampler_of(scene, settings), scene.emission_disks) {}
 
 std::string LightIntegrator::bias() const {
   std::string bias = kUnseenByLightPaths;
@@ -102,8 +102,8 @@ RayCounts LightIntegrator::trace(uint64_t path, uint32_t replicate, Sink& sink) 
   const auto at_vertex = [&](const LightPathVertex& v) {
     if (!v.scatter.bsdf().has_smooth_lobe()) return true;
     sampler.set_dimension(v.dimension);
-    if (const auto c = join(v.point, v.ray.time))
-      splat(v.point, *c, v.ray, v.depth,
+    if (const auto c = join(v.surface.point, v.ray.time))
+      splat(v.surface.point, *c, v.ray, v.depth,
             v.flux * v.scatter.eval_cos(v.wo(), c->wi, TransportMode::kImportance, v.rng) * c->weight);
     return true;
   };

@@ -6,6 +6,7 @@
 #include "integrators/integrator.h"
 #include "integrators/transport_params.h"
 #include "integrators/variant.h"
+#include "light_sampling/emission_sampler.h"
 #include "params/declaration.h"
 #include "scene/scene.h"
 
@@ -46,7 +47,7 @@ class LightIntegrator : public Integrator {
   LightSettings settings_;
   IntegratorContext context_;
   CameraSplat camera_splat_;
-  LightSampler lights_;
+  EmissionSampler lights_;
 };
 
 }  // namespace etd

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "accel/spawn.h"
+#include "film/pixel_sample.h"
+#include "light_sampling/emission_sampler.h"
 #include "materials/surface_scatter.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
@@ -10,9 +12,10 @@
 namespace etd {
 
 struct LightPathSettings {
-  int max_depth = 5;         // vertices at most
-  int roulette_depth = 2;    // vertices after which paths may be ended early
-  bool from_camera = false;  // leaves out what no path from the camera finds (kUnseenByCameraPaths)
+  int max_depth = 5;               // vertices at most
+  int roulette_depth = 2;          // vertices after which paths may be ended early
+  bool from_camera = false;        // leaves out what no path from the camera finds (kUnseenByCameraPaths)
+  std::optional<float> time = {};  // in [0, 1), of the shutter's interval; without one, each path draws its own
 };
 
 // What paths from the camera never find, because neither sampling a light nor meeting one does: for the metadata.
@@ -34,10 +37,14 @@ struct LightPathStart {
 
 struct LightPathVertex {
   int depth;  // from 1: scattering events with that of the vertex
-  const SurfacePoint& point;
+  const Hit& hit;
+  const SurfaceHit& surface;
+  const Shading& shading;
   const SurfaceScatter& scatter;
   const Ray& ray;  // that arrived
-  Spectrum flux;   // that arrives, W, for each path
+  const ShadingContext& context;
+  Spectrum flux;  // that arrives, W, for each path
+  bool hidden;    // no path from the camera that goes on from here finds this light: kUnseenByCameraPaths
   HashStream& rng;
   uint32_t dimension;  // of the sampler: one that the caller may use
 
@@ -63,10 +70,11 @@ inline bool find_first(const Scene& scene, const Ray& ray, Hit& first, RayCounts
 // Calls at_light(start) once the path has left its light, and at_vertex(vertex) where it meets surfaces; it goes on
 // from there if that returns true. Neither is called when no light shines along the chosen ray.
 template <class AtLight, class AtVertex>
-void follow_light_path(const Scene& scene, const LightSampler& lights, const LightPathSettings& settings,
+void follow_light_path(const Scene& scene, const EmissionSampler& lights, const LightPathSettings& settings,
                        Sampler& sampler, RayCounts& rays, AtLight&& at_light, AtVertex&& at_vertex) {
-  const ShadingContext context{scene.camera.ray_time(scene.moves ? sampler.get_1d() : 0.0f)};
-  const auto choice = lights.sample(sampler.get_choice(), nullptr);
+  const float time = !scene.moves ? 0.0f : settings.time ? *settings.time : sampler.get_1d();
+  const ShadingContext context{scene.camera.ray_time(time)};
+  const auto choice = lights.sample(sampler.get_choice());
   if (!choice) return;
   const Light& light = scene.lights[choice->light];
   const Vec2 u_position = sampler.get_2d(), u_direction = sampler.get_2d();
@@ -79,6 +87,7 @@ void follow_light_path(const Scene& scene, const LightSampler& lights, const Lig
 
   Spectrum flux = start.flux();
   Ray ray = emitted->ray;
+  bool hidden = false;
   float throughput = 1.0f;  // what scattering has left of the flux since roulette was played last
   for (int depth = 1; depth <= settings.max_depth; ++depth) {
     Hit hit;
@@ -90,13 +99,15 @@ void follow_light_path(const Scene& scene, const LightSampler& lights, const Lig
     HashStream rng(sampler.key(dimension));
     const Shading shading = scene.shade(surface, context, rng);
     const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
-    if (!at_vertex(LightPathVertex{depth, surface.point, scatter, ray, flux, rng, dimension})) return;
+    if (!at_vertex(LightPathVertex{depth, hit, surface, shading, scatter, ray, context, flux, hidden, rng, dimension}))
+      return;
     if (depth == settings.max_depth) return;
 
     sampler.set_dimension(dimension + 1);
     const auto s = scatter.sample(-ray.d, sampler.get_3d(), TransportMode::kImportance, rng);
     if (!s) return;
-    if (settings.from_camera && depth == 1 && light.is_delta() && s->is_delta()) return;
+    hidden = (depth == 1 ? light.is_delta() : hidden) && s->is_delta();
+    if (settings.from_camera && hidden) return;
     flux *= s->weight;
     throughput *= max_value(s->weight);
     ray = spawn_ray(surface.point, s->wi, ray);

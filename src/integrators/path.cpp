@@ -7,10 +7,12 @@
 #include "accel/spawn.h"
 #include "integrators/camera_path.h"
 #include "integrators/light.h"
+#include "integrators/light_path.h"
 #include "integrators/next_event.h"
 #include "integrators/path_record.h"
 #include "materials/bent_normal.h"
 #include "materials/surface_scatter.h"
+#include "scene/visibility.h"
 
 namespace etd {
 
@@ -103,14 +105,18 @@ PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings,
     : PixelIntegrator(context), scene_(scene), settings_(settings), lights_(light_sampler_of(scene, settings)) {}
 
 std::string PathIntegrator::bias() const {
-  std::string bias;
-  if (settings_.mode == PathMode::kNaive && has_delta_lights(scene_)) bias = "lights that no ray meets are left out";
+  std::vector<std::string> all;
+  if (has_delta_lights(scene_)) {
+    if (settings_.mode == PathMode::kNaive)
+      all.push_back("lights that no ray meets are left out");
+    else if (settings_.indirect && has_mirrors(scene_))
+      all.push_back(kUnseenByCameraPaths);
+  }
   if (settings_.indirect)
-    bias += fmt::format("{}light after more than {} scattering events is left out", bias.empty() ? "" : "; ",
-                        settings_.max_depth);
-  if (settings_.from_lights) bias += fmt::format("{}{}", bias.empty() ? "" : "; ", kUnseenByLightPaths);
-  if (settings_.bent_normals) bias += fmt::format("{}shading normals are bent", bias.empty() ? "" : "; ");
-  return bias;
+    all.push_back(fmt::format("light after more than {} scattering events is left out", settings_.max_depth));
+  if (settings_.from_lights) all.push_back(kUnseenByLightPaths);
+  if (settings_.bent_normals) all.push_back("shading normals are bent");
+  return fmt::format("{}", fmt::join(all, "; "));
 }
 
 namespace {

@@ -15,6 +15,7 @@ struct Photon {
   Point3 p;
   std::array<int16_t, 2> from;  // the direction that it came from, as a point of the octahedral square
   uint16_t events = 0;          // scattering events before it came here
+  bool hidden = false;          // paths from the camera that go on from here do not find its light
   std::array<float, 3> flux;    // W over the cosine between its direction and the surface's geometric normal
 
   static std::array<int16_t, 2> encode(Vec3 w);
@@ -23,6 +24,8 @@ struct Photon {
 
 class PhotonGrid {
  public:
+  // Memory of a photon: in its item, its cube, in its part, and its share of the cells.
+  static constexpr uint64_t kBytesOfPhoton = 2 * sizeof(Photon) + 16;
   // Forgets all photons, and makes room for those of this many items. `width` is that of the cubes: searches may have
   // half of it as radius.
   void start(size_t items, float width);

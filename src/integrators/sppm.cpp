@@ -43,6 +43,19 @@ const ModelDecl& SppmIntegrator::decl() {
          .min = -1,
          .max = 1 << 26,
          .doc = "Paths from lights in each iteration; -1: as many as the full image has pixels."},
+        {.name = "photonmemory",
+         .type = ParamType::kInteger,
+         .default_value = 2048,
+         .min = 1,
+         .max = 1 << 20,
+         .unit = "MiB",
+         .doc = "Memory for the photons of an iteration; fewer paths start at lights where all would not fit."},
+        {.name = "neardelta",
+         .default_value = 0.05,
+         .min = 0,
+         .max = 1,
+         .doc = "Paths from the camera pass surfaces by whose lobes are all narrower than this alpha, as by mirrors, "
+                "and gather photons beyond; never changes the limit."},
         {.name = "directlight",
          .type = ParamType::kString,
          .default_value = std::string("sampled"),
@@ -58,6 +71,8 @@ std::unique_ptr<Integrator> SppmIntegrator::create(const ParamReader& p, const S
   s.radius = p.number("radius");
   s.radius_scale = p.number("radiusscale");
   s.photons = static_cast<uint64_t>(std::max(0, p.integer("photonsperiteration")));
+  s.photon_bytes = static_cast<uint64_t>(p.integer("photonmemory")) << 20;
+  s.near_delta = static_cast<float>(p.number("neardelta"));
   s.direct_photons = p.string("directlight") == "photons";
   s.from_camera = leaves_out_what_the_camera_misses(p);
   return std::make_unique<SppmIntegrator>(scene, s, context);
@@ -76,22 +91,15 @@ namespace {
 constexpr double kAlpha =
     2.0 / 3.0;  // at which bias and noise fall at the same rate (Knaus and Zwicker 2011, section 4)
 constexpr uint64_t kPhotonsPerItem = 4096;
-// Streams of photons, which no pixel has.
-constexpr uint64_t kPhotonStream = uint64_t{1} << 62;
+constexpr uint32_t kPilotPaths = 4096;
+// Streams of photons, of the times of iterations, and of the paths that tell how many photons there will be: no pixel
+// has them.
+constexpr uint64_t kPhotonStream = uint64_t{1} << 62, kTimeStream = kPhotonStream - 1, kPilotStream = kTimeStream - 1;
 enum Phase : uint32_t { kTrace, kBuild, kGather, kPhases };
 
 // Sampler dimensions of a camera path's vertex.
 constexpr uint32_t kVertexDimensions = 6;
 enum VertexDimension : uint32_t { kLightChoice, kLightPoint, kScatter, kScatterLobe, kRoulette };
-
-// About as wide as a pixel on what the camera sees, or so wide that some ten photons are found if they spread evenly
-// over a sphere around it.
-double first_radius(const Scene& scene, double pixels, double photons) {
-  constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5;
-  const BoundingSphere& seen = scene.seen.radius > 0.0f ? scene.seen : scene.emission_disks.scene();
-  const double size = seen.radius;
-  return std::max(kPixelsWide * 2.0 * size / std::sqrt(pixels), size * std::sqrt(4.0 * kPhotonsWanted / photons));
-}
 
 }  // namespace
 
@@ -100,20 +108,29 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmSettings& settings,
       settings_(settings),
       context_(context),
       tiles_(context),
-      lights_(light_sampler_of(scene, settings)) {
+      lights_(light_sampler_of(scene, settings)),
+      emitters_(scene.lights, lights_, scene.emission_disks) {
   const uint64_t pixels = static_cast<uint64_t>(context.width) * static_cast<uint64_t>(context.height);
   if (settings_.photons == 0) settings_.photons = pixels;
-  if (!(settings_.radius > 0))
-    settings_.radius = first_radius(scene, static_cast<double>(pixels), static_cast<double>(settings_.photons));
+  const std::vector<Point3> pilot = pilot_photons();
+  photons_of_path_ = static_cast<double>(pilot.size()) / kPilotPaths;
+  const double bytes_of_path = std::max(photons_of_path_, 1.0 / kPilotPaths) * PhotonGrid::kBytesOfPhoton;
+  const double most = std::max(1.0, static_cast<double>(settings_.photon_bytes) / bytes_of_path);
+  if (static_cast<double>(settings_.photons) > most) settings_.photons = static_cast<uint64_t>(most);
+  if (!(settings_.radius > 0)) settings_.radius = first_radius(pilot);
   settings_.radius *= settings_.radius_scale;
 }
 
 std::string SppmIntegrator::bias() const {
   return fmt::format(
-             "photons are spread over {:.4g} m in the first and {:.4g} m in the last iteration, which falls to 0 as "
-             "iterations^(-1/6); light after more than {} scattering events is left out",
-             radius(0), radius(last_), settings_.max_depth) +
+             "the photons of {} paths from lights are spread over {:.4g} m in the first and {:.4g} m in the last "
+             "iteration, which falls to 0 as iterations^(-1/6); light after more than {} scattering events is left out",
+             settings_.photons, radius(0), radius(last_), settings_.max_depth) +
          (settings_.from_camera ? fmt::format("; {}", kUnseenByCameraPaths) : "");
+}
+
+uint64_t SppmIntegrator::bytes() const {
+  return static_cast<uint64_t>(photons_of_path_ * static_cast<double>(settings_.photons) * PhotonGrid::kBytesOfPhoton);
 }
 
 double SppmIntegrator::radius(uint64_t i) const {
@@ -138,6 +155,9 @@ void SppmIntegrator::begin(const Pass& pass, uint32_t phase) {
     const uint64_t number = uint64_t{i.index} * context_.replicates + i.replicate;
     last_ = std::max(last_, number);
     radius_ = static_cast<float>(radius(number));
+    Sampler times(context_.sampler, context_.seed);
+    times.start(kTimeStream, i.replicate, i.index);
+    time_ = times.get_1d();
     grid_.start(work_items(pass, phase), 2.0f * radius_);
   }
   if (phase % kPhases == kBuild) grid_.begin_build();
@@ -166,9 +186,59 @@ void SppmIntegrator::render(const Pass& pass, uint32_t phase, size_t item, Sink&
   }
 }
 
+template <class F>
+void SppmIntegrator::trace_path(Sampler& sampler, RayCounts& rays, F&& keep) const {
+  const auto at_vertex = [&](const LightPathVertex& v) {
+    if (v.depth == 1 && !settings_.direct_photons) return true;
+    // Whoever gathers at a mixture may find another of its materials there.
+    const bool mixed = v.shading.material != v.surface.material;
+    const Bsdf& bsdf = v.scatter.bsdf();
+    if (!mixed && !(bsdf.has_smooth_lobe() && (v.hidden || !is_near_delta(bsdf)))) return true;
+    const SurfacePoint& point = v.surface.point;
+    const float cosine = std::abs(dot(v.wo(), point.ng));
+    if (!(cosine > 0.0f)) return true;
+    // Where a share of the surface is missing, so is that of the photons; but who gathers stands on what is there.
+    const Spectrum flux = v.flux * (1.0f / (cosine * std::min(scene_.alpha(v.hit, point, v.context), 1.0f)));
+    if (is_finite(flux) && !is_black(flux))
+      keep(Photon{
+          point.p, Photon::encode(v.wo()), static_cast<uint16_t>(v.depth - 1), v.hidden, {flux[0], flux[1], flux[2]}});
+    return true;
+  };
+  const LightPathSettings settings{settings_.max_depth, settings_.roulette_depth, settings_.from_camera, time_};
+  follow_light_path(
+      scene_, emitters_, settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
+}
+
+std::vector<Point3> SppmIntegrator::pilot_photons() const {
+  std::vector<Point3> photons;
+  RayCounts rays;
+  for (uint32_t k = 0; k < kPilotPaths; ++k) {
+    Sampler sampler(context_.sampler, context_.seed);
+    sampler.start(kPilotStream, 0, k);
+    trace_path(sampler, rays, [&](const Photon& photon) { photons.push_back(photon.p); });
+  }
+  return photons;
+}
+
+// As wide as one and a half pixels where most of what the camera sees is, or so wide that ten photons are found there
+// if they spread evenly over a sphere. How many come there the pilot tells, in a larger sphere if few do.
+double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
+  constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5;
+  constexpr size_t kEnough = 64;
+  const BoundingSphere& seen = scene_.seen.radius > 0.0f ? scene_.seen : scene_.emission_disks.scene();
+  const double pixel = 2.0 * static_cast<double>(seen.radius) / std::sqrt(double(context_.width) * context_.height);
+  if (pilot.empty()) return kPixelsWide * pixel;
+  std::vector<double> distances;
+  for (const Point3& p : pilot) distances.push_back(length(to_double(p - seen.center)));
+  std::sort(distances.begin(), distances.end());
+  const double size = std::max<double>(seen.radius, distances[std::min(kEnough, distances.size()) - 1]);
+  const auto found = std::upper_bound(distances.begin(), distances.end(), size) - distances.begin();
+  const double photons = static_cast<double>(settings_.photons) * static_cast<double>(found) / kPilotPaths;
+  return std::max(kPixelsWide * pixel, size * std::sqrt(4.0 * kPhotonsWanted / photons));
+}
+
 void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) {
   const uint64_t begin = item * kPhotonsPerItem, end = std::min(begin + kPhotonsPerItem, settings_.photons);
-  const LightPathSettings settings{settings_.max_depth, settings_.roulette_depth, settings_.from_camera};
   const bool any_kept = settings_.indirect || (settings_.direct && settings_.direct_photons);
   RayCounts rays;
   for (uint64_t k = begin; k < end && any_kept; ++k) {
@@ -176,18 +246,7 @@ void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) 
     const uint64_t number = i.index * settings_.photons + k;
     Sampler sampler(context_.sampler, context_.seed);
     sampler.start(kPhotonStream + (number >> 32), i.replicate, static_cast<uint32_t>(number));
-    const auto at_vertex = [&](const LightPathVertex& v) {
-      const float cosine = std::abs(dot(v.wo(), v.point.ng));
-      if (!v.scatter.bsdf().has_smooth_lobe() || (v.depth == 1 && !settings_.direct_photons) || !(cosine > 0.0f))
-        return true;
-      const Spectrum flux = v.flux * (1.0f / cosine);
-      if (is_finite(flux) && !is_black(flux))
-        grid_.add(item,
-                  {v.point.p, Photon::encode(v.wo()), static_cast<uint16_t>(v.depth - 1), {flux[0], flux[1], flux[2]}});
-      return true;
-    };
-    follow_light_path(
-        scene_, lights_, settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
+    trace_path(sampler, rays, [&](const Photon& photon) { grid_.add(item, photon); });
   }
   grid_.finish_item(item);
   sink.count(rays);
@@ -204,35 +263,48 @@ void SppmIntegrator::gather_tile(const Iteration& i, size_t item, Sink& sink) co
     }
 }
 
-// A path from the camera, on by way of deltas alone: wherever there is anything else, light is gathered.
+// A path from the camera, on by way of deltas and of what is nearly one: wherever there is anything else, light is
+// gathered.
 PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
   PixelSample out;
-  const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
+  const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out, time_);
   Ray ray = start.ray;
   const ShadingContext context{ray.time};
-  const NextEvent how{lights_};
+  const NextEvent alone{lights_}, weighted{lights_, true};
   NoRecorder recorder;
   PathFeatures features;
   Spectrum beta(1.0f);
-  float eta_scale = 1.0f;  // what refraction has taken off beta, given back for roulette alone
+  float eta_scale = 1.0f;    // what refraction has taken off beta, given back for roulette alone
+  float scatter_pdf = 0.0f;  // density of the last direction; 0 where light sampling did not look for the same light
+  SurfacePoint last;         // the vertex that it left
   const auto add = [&](int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
     (depth == 0 ? out.emission : depth == 1 ? out.direct : out.indirect) += beta * radiance;
+  };
+  const auto add_emission = [&](int depth, uint32_t light, const SurfacePoint* on_light) {
+    const Spectrum radiance = scene_.lights[light].emitted(on_light, -ray.d, context, ray.o);
+    if (is_black(radiance)) return;
+    float weight = 1.0f;
+    if (scatter_pdf > 0.0f) {
+      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, weighted.sampling());
+      const LightReceiver receiver(last, context.time);
+      weight = mis_weight(weighted.heuristic, scatter_pdf, lights_.probability(light, &receiver) * pdf);
+    }
+    add(depth, radiance * weight);
   };
 
   for (int depth = 0;; ++depth) {
     Hit hit;
     ++(depth == 0 ? out.rays.camera : out.rays.indirect);
     if (!scene_.intersect(ray, hit)) {
-      for (const uint32_t light : scene_.infinite_lights)
-        add(depth, scene_.lights[light].emitted(nullptr, -ray.d, context, ray.o));
+      for (const uint32_t light : scene_.infinite_lights) add_emission(depth, light, nullptr);
       break;
     }
     const SurfaceHit surface = scene_.surface(hit);
     const SurfacePoint& point = surface.point;
     const Vec3 wo = -ray.d;
     features.meet(scene_, depth, hit, out);
-    if (surface.light != kNoId) add(depth, scene_.lights[surface.light].emitted(&point, wo, context, ray.o));
+    if (surface.light != kNoId) add_emission(depth, surface.light, &point);
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
@@ -242,24 +314,28 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     features.shade(point, scatter, wo, out);
     if (depth == settings_.max_depth) break;
 
+    // What scattering cannot find from here, or is not asked for.
+    const bool near_delta = is_near_delta(bsdf);
     if (bsdf.has_smooth_lobe()) {
-      if (!settings_.direct_photons) {
+      if (near_delta || !settings_.direct_photons) {
         sampler.set_dimension(dimension + kLightChoice);
-        add(depth + 1, next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder));
+        add(depth + 1, next_event(scene_, near_delta ? weighted : alone, {point, scatter, ray, context}, sampler, rng,
+                                  out.rays, recorder));
       }
       Spectrum direct;
-      const Spectrum indirect = photon_light(point, scatter, wo, depth, rng, direct);
+      const Spectrum indirect = photon_light(point, scatter, wo, depth, near_delta, rng, direct);
       add(depth + 1, direct);
       add(2, indirect);
     }
-    if ((bsdf.lobes() & kDelta) == 0) break;
+    if (!near_delta && (bsdf.lobes() & kDelta) == 0) break;
 
-    // By way of a mirror or through glass.
     sampler.set_dimension(dimension + kScatter);
     const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kRadiance, rng);
-    if (!s || !s->is_delta()) break;
+    if (!s || !(near_delta || s->is_delta())) break;
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
+    scatter_pdf = s->is_delta() ? 0.0f : s->pdf;
+    last = point;
     ray = spawn_ray(point, s->wi, ray);
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {
@@ -273,12 +349,12 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
 
 // The radiance that photons near the point bring along wo: their flux over the disk, times f |light . ns| / |light .
 // ng|, of which the photon carries the divisor. `depth`: scattering events between the point and the camera. Light
-// whose only event is at the point comes in `direct`.
+// whose only event is at the point comes in `direct`. `hidden`: only of photons that are.
 Spectrum SppmIntegrator::photon_light(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, int depth,
-                                      HashStream& rng, Spectrum& direct) const {
+                                      bool hidden, HashStream& rng, Spectrum& direct) const {
   Spectrum indirect;
   grid_.for_photons_near(point.p, radius_, [&](const Photon& photon) {
-    if (depth + photon.events + 1 > settings_.max_depth) return;
+    if (depth + photon.events + 1 > settings_.max_depth || (hidden && !photon.hidden)) return;
     const Spectrum f = scatter.eval_cos(wo, photon.direction(), TransportMode::kRadiance, rng);
     if (is_black(f)) return;
     (photon.events == 0 ? direct : indirect) += f * Spectrum::rgb(photon.flux[0], photon.flux[1], photon.flux[2]);

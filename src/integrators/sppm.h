@@ -3,6 +3,7 @@
 // Their mean converges to the image, because the radii fall so slowly that the noise goes away as well.
 #pragma once
 
+#include "integrators/light_path.h"
 #include "integrators/photon_grid.h"
 #include "integrators/pixel_tiles.h"
 #include "integrators/transport_params.h"
@@ -14,9 +15,11 @@
 namespace etd {
 
 struct SppmSettings : TransportSettings {
-  double radius = 0;            // of the first iteration, in metres; 0: found from the scene
-  double radius_scale = 1;      // on that
-  uint64_t photons = 0;         // paths from lights in each iteration; 0: as many as pixels
+  double radius = 0;                          // of the first iteration, in metres; 0: found from the scene
+  double radius_scale = 1;                    // on that
+  uint64_t photons = 0;                       // paths from lights in each iteration; 0: as many as pixels
+  uint64_t photon_bytes = uint64_t{2} << 30;  // of memory for the photons of an iteration; fewer paths if need be
+  float near_delta = 0;         // closures whose lobes are all narrower than this alpha are passed as mirrors are
   bool direct_photons = false;  // photons bring direct light too
   bool from_camera = false;     // LightPathSettings::from_camera
 };
@@ -32,6 +35,7 @@ class SppmIntegrator : public Integrator {
 
   IntegratorTraits traits() const override { return kTraits; }
   std::string bias() const override;
+  uint64_t bytes() const override;
   // Each iteration has three: photons leave the lights, the grid is made of them, pixels gather.
   uint32_t phases(const Pass& pass) const override;
   void begin(const Pass& pass, uint32_t phase) override;
@@ -46,20 +50,31 @@ class SppmIntegrator : public Integrator {
     uint32_t replicate, index;
   };
   Iteration iteration(const Pass& pass, uint32_t phase) const;
+  // Calls keep(photon) for what a path from the lights leaves.
+  template <class F>
+  void trace_path(Sampler& sampler, RayCounts& rays, F&& keep) const;
+  // The photons of a few paths tell how many there will be, and how wide to search.
+  std::vector<Point3> pilot_photons() const;
+  double first_radius(const std::vector<Point3>& pilot) const;
   void trace_photons(const Iteration& i, size_t item, Sink& sink);
   void gather_tile(const Iteration& i, size_t item, Sink& sink) const;
   PixelSample gather(int x, int y, Sampler& sampler) const;
-  Spectrum photon_light(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, int depth, HashStream& rng,
-                        Spectrum& direct) const;
+  bool is_near_delta(const Bsdf& bsdf) const { return bsdf.widest_alpha() < settings_.near_delta; }
+  Spectrum photon_light(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, int depth, bool hidden,
+                        HashStream& rng, Spectrum& direct) const;
 
   const Scene& scene_;
   SppmSettings settings_;
   IntegratorContext context_;
   PixelTiles tiles_;
-  LightSampler lights_;
-  PhotonGrid grid_;    // of the running iteration
-  float radius_ = 0;   // of the running iteration
-  uint64_t last_ = 0;  // the highest number of an iteration that has begun
+  LightSampler lights_;         // for light sampling
+  EmissionSampler emitters_;    // for photons
+  double photons_of_path_ = 0;  // mean number that a path leaves
+  uint64_t last_ = 0;           // the highest number of an iteration that has begun
+  // Of the running iteration:
+  PhotonGrid grid_;
+  float radius_ = 0;
+  float time_ = 0;  // in [0, 1), of the shutter's interval: photons and camera see what moves in one place
 };
 
 }  // namespace etd

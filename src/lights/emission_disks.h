@@ -25,6 +25,10 @@ class EmissionDisks {
   float pdf(Point3 p, Vec3 d) const { return pdf(p, d, -1); }
 
   const BoundingSphere& scene() const { return scene_; }
+  // The smallest disk, around what the camera sees if that is much smaller than the scene.
+  BoundingSphere smallest() const { return inner_ > 0 ? disk(0) : scene_; }
+  // Each is chosen as often as the others.
+  int count() const { return inner_ + 1; }
 
  private:
   // Inner disks, the smallest first, and then the one of the scene.

@@ -100,6 +100,10 @@ Spectrum Light::power() const {
   return dispatch<Spectrum, Lights>(storage_, [](const auto& l) { return l.power(); }) * power_scale_;
 }
 
+bool Light::enters_by_disks() const {
+  return dispatch<bool, Lights>(storage_, []<class T>(const T&) { return kSameFromEverywhere<T>; });
+}
+
 uint32_t Light::kind_count() { return static_cast<uint32_t>(Lights::kCount); }
 
 std::span<const ModelDecl* const> light_models() {

@@ -89,6 +89,8 @@ class Light {
   // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,
   // over all directions.
   Spectrum power() const;
+  // Whether sample_le() starts rays at the disks, as for infinite lights without a portal.
+  bool enters_by_disks() const;
   // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
   uint32_t kind() const { return storage_.tag; }
   static uint32_t kind_count();

@@ -51,6 +51,7 @@ MemoryForecast forecast_memory(const PreparedRender& prepared) {
   const FilmSettings& film = prepared.settings.film;
   MemoryForecast forecast;
   forecast.film = Film::bytes_for(film);
+  forecast.integrator = prepared.integrator->bytes();
   if (prepared.compiled.scene->textures.cache) {
     const size_t most = prepared.compiled.scene->textures.cache_limit,
                  now = prepared.compiled.scene->textures.image_bytes();
@@ -62,7 +63,7 @@ MemoryForecast forecast_memory(const PreparedRender& prepared) {
   forecast.writing = kCopies * strip_bytes(layers_header(film, false)) + kEncoders;
   const size_t threads = static_cast<size_t>(thread_count(prepared.settings.driver.threads));
   return_freed_memory();
-  const size_t added = forecast.film + forecast.textures + forecast.writing + threads * kOfThread;
+  const size_t added = forecast.film + forecast.integrator + forecast.textures + forecast.writing + threads * kOfThread;
   forecast.peak = std::max<size_t>(peak_memory_bytes(), memory_bytes() + added);
   return forecast;
 }

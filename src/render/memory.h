@@ -19,9 +19,10 @@ void return_freed_memory();
 // Forecasts the memory of a render that has been prepared and not begun, in bytes.
 struct MemoryForecast {
   size_t film = 0;
-  size_t textures = 0;  // that the cache of textures may yet load
-  size_t writing = 0;   // of a few rows of the image, encoded
-  size_t peak = 0;      // the most that the process will have held, with all that it holds now
+  size_t integrator = 0;  // such as photons
+  size_t textures = 0;    // that the cache of textures may yet load
+  size_t writing = 0;     // of a few rows of the image, encoded
+  size_t peak = 0;        // the most that the process will have held, with all that it holds now
 };
 MemoryForecast forecast_memory(const PreparedRender& prepared);
 

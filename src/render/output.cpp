@@ -246,6 +246,7 @@ Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings&
   const char* spread = film.replicates >= kReplicatesForSpread ? "spread of the replicates"
                                                                : "second moments (conservative for sobol samples)";
   add("stderr", spread + noise_only);
+  add("consistent", std::string(settings.traits.consistent ? "true" : "false"));
   add("biased", bias_text(bias, film.sensor, result));
   add("invalid_samples", invalid_text(result.invalid));
   add("stopped_by", std::string(stopped_by_name(result.stopped_by)));

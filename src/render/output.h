@@ -33,8 +33,8 @@ LayeredImage make_picture(const Film& film);
 
 // Everything needed to make the same image again and to judge it, under names that start with "etendue:": version,
 // scene, integrator and all its parameters, sampler, seed, replicates, spp, sizes, rays by kind, seconds, limits, what
-// is biased ("nothing" when nothing is), the share of pixels without a sample if there are any, invalid samples ("none"
-// when there are none) and what stopped it.
+// is biased ("nothing" when nothing is), whether that falls to 0 with more samples, the share of pixels without a
+// sample if there are any, invalid samples ("none" when there are none) and what stopped it.
 Metadata make_metadata(const std::filesystem::path& scene, const RenderSettings& settings, const std::string& bias,
                        const RenderResult& result);
 

@@ -24,10 +24,9 @@ bool Scene::occluded(const Ray& ray) const {
 }
 
 bool Scene::is_hole(const Ray& ray, const Hit& hit) const {
-  const SurfaceBinding& binding = binding_of(hit);
-  if (!binding.has_holes) return false;
-  const float alpha = textures.eval(binding.alpha, point_coord(surface_point(geometry, hit)), {ray.time});
-  return !(alpha >= 1.0f) && !(number_of(ray, hit) < alpha);
+  if (!binding_of(hit).has_holes) return false;
+  const float share = alpha(hit, surface_point(geometry, hit), {ray.time});
+  return !(share >= 1.0f) && !(number_of(ray, hit) < share);
 }
 
 // The nearest hit from `hit` on that is no hole. The ray goes on as it is, with what it has passed behind its start: a

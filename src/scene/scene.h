@@ -57,6 +57,11 @@ class Scene {
                ? std::clamp(textures.eval(light_alphas[light], point_coord(on_light), context), 0.0f, 1.0f)
                : 1.0f;
   }
+  // Share of the surface that is there, and so the probability with which a ray meets it where it was hit.
+  float alpha(const Hit& hit, const SurfacePoint& point, const ShadingContext& context) const {
+    const SurfaceBinding& binding = binding_of(hit);
+    return binding.has_holes ? textures.eval(binding.alpha, point_coord(point), context) : 1.0f;
+  }
   SurfaceHit surface(const Hit& hit) const;
   // How the surface scatters there. `rng` decides between mixed materials.
   Shading shade(const SurfaceHit& surface, const ShadingContext& context, HashStream& rng) const;

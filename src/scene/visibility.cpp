@@ -9,8 +9,10 @@ namespace etd {
 
 namespace {
 
-// Whether only mirror directions leave the surface, wherever it was looked at: textures may make it rough in places.
-bool is_smooth(const Material& material, const Scene& scene) {
+// Whether `is(closure)` holds at some of the places where the surface is looked at: textures may differ from one to the
+// next.
+template <class F>
+bool somewhere(const Material& material, const Scene& scene, F&& is) {
   constexpr int kPlaces = 64;
   HashStream rng(1);
   for (int i = 0; i < kPlaces; ++i) {
@@ -19,9 +21,9 @@ bool is_smooth(const Material& material, const Scene& scene) {
     at.uv = {range * rng.next_float(), range * rng.next_float()};
     at.p = {range * rng.next_float(), range * rng.next_float(), range * rng.next_float()};
     at.n = {0, 0, 1};
-    if (material.closure(at, scene.textures, {}).has_smooth_lobe()) return false;
+    if (is(material.closure(at, scene.textures, {}))) return true;
   }
-  return true;
+  return false;
 }
 
 // Every material of a surface, with those that mixes choose from.
@@ -41,13 +43,23 @@ std::set<uint32_t> used_materials(const Scene& scene) {
 
 }  // namespace
 
+bool has_mirrors(const Scene& scene) {
+  for (const uint32_t material : used_materials(scene))
+    if (scene.materials[material].children().empty() &&
+        somewhere(scene.materials[material], scene, [](const Bsdf& bsdf) { return (bsdf.lobes() & kDelta) != 0; }))
+      return true;
+  return false;
+}
+
 void warn_if_nothing_shows(const Scene& scene, const SceneNames& names, Diagnostics& diagnostics) {
   const auto is_point = [](const Light& light) { return light.is_delta(); };
   if (scene.lights.empty() || !std::all_of(scene.lights.begin(), scene.lights.end(), is_point)) return;
   const std::set<uint32_t> used = used_materials(scene);
   if (used.empty()) return;
   for (const uint32_t material : used)
-    if (scene.materials[material].children().empty() && !is_smooth(scene.materials[material], scene)) return;
+    if (scene.materials[material].children().empty() &&
+        somewhere(scene.materials[material], scene, [](const Bsdf& bsdf) { return bsdf.has_smooth_lobe(); }))
+      return;
   diagnostics.warning(
       names.materials[*used.begin()].loc,
       "nothing can be seen: every surface is perfectly smooth, and all light comes from points or single "

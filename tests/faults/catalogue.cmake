@@ -295,7 +295,21 @@ edit(integrators/sppm.cpp [[(disk * static_cast<double>(settings_.photons))]]
      [[(disk * static_cast<double>(FAULT ? grid_.photon_count() : settings_.photons))]])
 
 fault(photons-without-cosine "photons are not divided by the cosine with which they arrive" "${sppm}")
-edit(integrators/sppm.cpp [[v.flux * (1.0f / cosine);]] [[v.flux * (FAULT ? 1.0f : 1.0f / cosine);]])
+edit(integrators/sppm.cpp [[1.0f / (cosine * std::min]] [[1.0f / ((FAULT ? 1.0f : cosine) * std::min]])
+
+fault(photons-on-holes "photons are not weighed against the holes of the surface that they meet" "${sppm}")
+edit(integrators/sppm.cpp [[std::min(scene_.alpha(v.hit, point, v.context), 1.0f)]]
+     [[(FAULT ? 1.0f : std::min(scene_.alpha(v.hit, point, v.context), 1.0f))]])
+
+fault(photons-of-mixtures-lost "photons are lost where a mixture shows a mirror" "${sppm}")
+edit(integrators/sppm.cpp [[if (!mixed && !(]] [[if ((FAULT || !mixed) && !(]])
+
+fault(photons-of-other-times "photons and camera see what moves at different times" "${sppm}")
+edit(integrators/sppm.cpp [[settings_.from_camera, time_};]]
+     [[settings_.from_camera, FAULT ? std::nullopt : std::optional<float>(time_)};]])
+
+fault(near-mirrors-twice "light that a nearly smooth closure finds is not weighed against light sampling" "${sppm}")
+edit(integrators/sppm.cpp [[if (scatter_pdf > 0.0f) {]] [[if (!FAULT && scatter_pdf > 0.0f) {]])
 
 fault(direct-light-twice "photons bring direct light that is sampled already" "${sppm}")
 edit(integrators/sppm.cpp [[(v.depth == 1 && !settings_.direct_photons)]] [[(!FAULT && v.depth == 1 && !settings_.direct_photons)]])
@@ -346,7 +360,7 @@ edit(cameras/spherical.cpp [[kPi * std::hypot(local.x, local.z);]] [[kPi * (FAUL
 
 closed_forms(tests motion_edge motion_edge_camera)
 fault(time-not-sampled "all rays leave when the shutter opens" "${tests}")
-edit(integrators/camera_path.h [[scene.moves ? sampler.get_1d() : 0.0f]] [[scene.moves && !FAULT ? sampler.get_1d() : 0.0f]])
+edit(integrators/camera_path.h [[if (scene.moves) at.time]] [[if (scene.moves && !FAULT) at.time]])
 
 closed_forms(tests motion_disk_light motion_point_light motion_sphere_light)
 fault(light-at-another-time "lights are sampled where they are when the shutter opens" "${tests}")

@@ -81,8 +81,14 @@ std::string read_input(const fs::path& path, fs::path error_path, const Differen
 // What two renders that share more than the scene say about each other.
 void add_notes(const Input& a, const Input& b, std::vector<std::string>& notes) {
   for (const Input* input : {&a, &b})
-    if (const std::string* bias = metadata_text(input->image, "etendue:biased"); bias != nullptr && *bias != "nothing")
-      notes.push_back(fmt::format("{} is biased: {}", input->name, *bias));
+    if (const std::string* bias = metadata_text(input->image, "etendue:biased");
+        bias != nullptr && *bias != "nothing") {
+      const std::string* consistent = metadata_text(input->image, "etendue:consistent");
+      const bool vanishes = consistent != nullptr && *consistent == "true";
+      notes.push_back(fmt::format("{} is {}: {}", input->name,
+                                  vanishes ? "consistent, and biased by what its error does not tell" : "biased",
+                                  *bias));
+    }
   const std::string* seed_a = metadata_text(a.image, "etendue:seed");
   const std::string* seed_b = metadata_text(b.image, "etendue:seed");
   if (seed_a != nullptr && seed_b != nullptr && *seed_a == *seed_b)
