@@ -145,7 +145,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
-  SurfacePoint last;            // the vertex it left
+  Point3 last;                  // the point it left
 
   const auto add = [&](LightFoundBy by, int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
@@ -159,7 +159,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     float pdf_light = 0.0f, weight = 1.0f;
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
     if (!only_scattering && mis) {
-      const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, how.sampling());
+      const float pdf = scene_.lights[light].pdf_li(last, ray.d, on_light, context, how.sampling());
       pdf_light = lights.probability(light) * pdf;
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
@@ -222,7 +222,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;
     only_scattering = s->is_delta();
-    last = point;
+    last = point.p;
     ray = spawn_ray(point, s->wi, ray);
 
     // Russian roulette on the throughput, as it is without the compression of radiance in glass.

@@ -361,7 +361,7 @@ edit(lights/moving_light.cpp [[s->pdf *= solid_angle_stretch(at, s->wi);]]
 # ---- samples that are no numbers
 
 fault(invalid-samples-kept "NaN reaches the film" "InvalidSamples.*")
-edit(film/invalid_samples.cpp [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
+edit(film/invalid_samples.h [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
 
 # ---- images
 
