@@ -17,10 +17,6 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 wo, Vec3 u, TransportMode mode, Hash
       storage_, [&](const auto& c) { return c.sample(wo, u, mode, rng, sides); });
 }
 
-Lobe Bsdf::lobes() const {
-  return dispatch<Lobe, Closures>(storage_, [](const auto& c) { return c.lobes(); });
-}
-
 Spectrum Bsdf::albedo(Vec3 wo) const {
   return dispatch<Spectrum, Closures>(storage_, [&](const auto& c) { return c.albedo(wo); });
 }
