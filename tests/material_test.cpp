@@ -159,7 +159,8 @@ TEST(SurfaceScatter, TheGeometricNormalDecidesSides) {
 
 TEST(SurfaceScatter, RefractionCrossesTheGeometricNormal) {
   const Leaning l;
-  const SurfaceScatter scatter(Bsdf(SmoothDielectric{1.5f}), l.frame, l.ng);
+  const Bsdf bsdf(SmoothDielectric{1.5f});
+  const SurfaceScatter scatter(bsdf, l.frame, l.ng);
   HashStream rng(2);
   int failures = 0, made = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -184,7 +185,8 @@ TEST(SurfaceScatter, DiffuseFurnaceAtEveryTiltAndView) {
   for (const float degrees : {0.0f, 10.0f, 21.0f, 45.0f, 70.0f, 89.0f}) {
     const float tilt = degrees * kPi / 180;
     const Vec3 ns = ng * std::cos(tilt) + Frame::from_z(ng).x * std::sin(tilt);
-    const SurfaceScatter scatter(Bsdf(Lambert{Spectrum(1)}), Frame::from_z(ns), ng);
+    const Bsdf bsdf(Lambert{Spectrum(1)});
+    const SurfaceScatter scatter(bsdf, Frame::from_z(ns), ng);
     for (int view = 0; view < 20; ++view) {
       const Vec3 viewer = sample_sphere_uniform({rng.next_float(), rng.next_float()});
       constexpr int kGrid = 100;
@@ -220,7 +222,8 @@ TEST(SurfaceScatter, SampleEvalAndPdfAgreeInTheWorld) {
 // surface (Veach 1997, section 5.3).
 TEST(SurfaceScatter, ImportanceIsTheAdjointOfRadiance) {
   const Leaning l;
-  const SurfaceScatter scatter(Bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}}), l.frame, l.ng);
+  const Bsdf bsdf(RoughConductor{Spectrum(0.2f), Spectrum(3), {0.5f, 0.3f}});
+  const SurfaceScatter scatter(bsdf, l.frame, l.ng);
   HashStream rng(4);
   int compared = 0;
   for (int i = 0; i < 4000; ++i) {

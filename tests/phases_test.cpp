@@ -42,7 +42,7 @@ class InPhases : public Integrator {
     PixelSample s;
     s.direct = Spectrum(static_cast<float>(x + 1));
     for (uint32_t r = pass.first_replicate; r < pass.end_replicate; ++r)
-      for (uint32_t i = pass.begin; i < pass.end; ++i) pixel.add(r, i, s);
+      for (uint32_t i = pass.begin; i < pass.end; ++i) pixel.add(r, i, PixelSample(s));
   }
   std::vector<std::array<uint32_t, 4>> order;
   int missing = 0;

@@ -17,10 +17,6 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 wo, Vec3 u, TransportMode mode, Hash
       storage_, [&](const auto& c) { return c.sample(wo, u, mode, rng, sides); });
 }
 
-Lobe Bsdf::lobes() const {
-  return dispatch<Lobe, Closures>(storage_, [](const auto& c) { return c.lobes(); });
-}
-
 float Bsdf::widest_alpha() const {
   return dispatch<float, Closures>(storage_, [](const auto& c) { return c.widest_alpha(); });
 }

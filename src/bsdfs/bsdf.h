@@ -63,8 +63,8 @@ class Bsdf {
   // u.x, u.y place the direction, u.z chooses among lobes. Nothing when the sample fails (below the surface, absorbed,
   // or no lobe on the allowed sides): that is an estimate of 0.
   std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides = kBothSides) const;
-  // Union of the lobes that the closure has.
-  Lobe lobes() const;
+  // Union of the lobes that the closure has. Every vertex asks for it several times, so it is kept.
+  Lobe lobes() const { return lobes_; }
   // How wide the widest lobe is that is no delta: 1 where one is diffuse, of a microfacet lobe the greater alpha, and 0
   // where all are deltas.
   float widest_alpha() const;
@@ -77,10 +77,11 @@ class Bsdf {
   static uint32_t kind_count();
 
   // Whether any lobe has a finite density, so that eval_cos() can be other than 0.
-  bool has_smooth_lobe() const { return (lobes() & (kDiffuse | kGlossy)) != 0; }
+  bool has_smooth_lobe() const { return (lobes_ & (kDiffuse | kGlossy)) != 0; }
 
  private:
   TaggedStorage<128> storage_;
+  Lobe lobes_ = kNoLobe;
 };
 
 }  // namespace etd

@@ -19,7 +19,7 @@ using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielec
                           Layered<RoughDielectric, SmoothConductor>, Layered<RoughDielectric, RoughConductor>>;
 
 template <class T>
-Bsdf::Bsdf(const T& closure) {
+Bsdf::Bsdf(const T& closure) : lobes_(closure.lobes()) {
   storage_.store<Closures>(closure);
 }
 

@@ -26,10 +26,4 @@ InvalidSamples& InvalidSamples::operator+=(const InvalidSamples& b) {
   return *this;
 }
 
-void admit(const SampleId& id, const Sensor& sensor, PixelSample& s, InvalidSamples& invalid) {
-  const bool sound = is_sound(s);
-  if (sound) sensor.expose(s);
-  if (!sound || !is_finite((s.emission + s.direct + s.indirect) * s.weight)) invalid.take_out(id, s);
-}
-
 }  // namespace etd

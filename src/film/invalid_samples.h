@@ -29,6 +29,10 @@ struct InvalidSamples {
 };
 
 // Makes of a sample what the film adds up: exposed, or taken out where it is not sound or its exposure exceeds a float.
-void admit(const SampleId& id, const Sensor& sensor, PixelSample& s, InvalidSamples& invalid);
+inline void admit(const SampleId& id, const Sensor& sensor, PixelSample& s, InvalidSamples& invalid) {
+  const bool sound = is_sound(s);
+  if (sound) sensor.expose(s);
+  if (!sound || !is_finite((s.emission + s.direct + s.indirect) * s.weight)) invalid.take_out(id, s);
+}
 
 }  // namespace etd

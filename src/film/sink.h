@@ -35,7 +35,7 @@ class Sink {
     Pixel(const Pixel&) = delete;
     Pixel& operator=(const Pixel&) = delete;
 
-    void add(uint32_t replicate, uint32_t index, PixelSample sample);
+    void add(uint32_t replicate, uint32_t index, PixelSample&& sample);
 
    private:
     void fold();
@@ -76,7 +76,7 @@ class Sink {
   ItemCounts counts_;
 };
 
-inline void Sink::Pixel::add(uint32_t replicate, uint32_t index, PixelSample s) {
+inline void Sink::Pixel::add(uint32_t replicate, uint32_t index, PixelSample&& s) {
   const FilmSettings& film = sink_.film_.settings();
   if (replicate != replicate_) {
     fold();

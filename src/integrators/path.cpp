@@ -150,7 +150,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   float eta_scale = 1.0f;       // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
-  SurfacePoint last;            // the vertex it left
+  LightReceiver last;           // the vertex it left
 
   const auto add = [&](LightFoundBy by, int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
@@ -165,8 +165,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (!only_scattering && settings_.mode == PathMode::kNextEvent) weight = 0.0f;
     if (!only_scattering && mis) {
       const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, how.sampling());
-      const LightReceiver receiver(last, context.time);
-      pdf_light = lights_.probability(light, &receiver) * pdf;
+      pdf_light = lights_.probability(light, &last) * pdf;
       weight = mis_weight(settings_.heuristic, scatter_pdf, pdf_light);
     }
     recorder.emission(light, radiance, scatter_pdf, pdf_light, weight);
@@ -228,7 +227,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;
     only_scattering = s->is_delta();
-    last = point;
+    last = {point, context.time};
     ray = spawn_ray(point, s->wi, ray);
 
     // Russian roulette on the throughput, as it is without the compression of radiance in glass.

@@ -276,7 +276,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
   Spectrum beta(1.0f);
   float eta_scale = 1.0f;    // what refraction has taken off beta, given back for roulette alone
   float scatter_pdf = 0.0f;  // density of the last direction; 0 where light sampling did not look for the same light
-  SurfacePoint last;         // the vertex that it left
+  LightReceiver last;        // the vertex that it left
   const auto add = [&](int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
     (depth == 0 ? out.emission : depth == 1 ? out.direct : out.indirect) += beta * radiance;
@@ -287,8 +287,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     float weight = 1.0f;
     if (scatter_pdf > 0.0f) {
       const float pdf = scene_.lights[light].pdf_li(last.p, ray.d, on_light, context, weighted.sampling());
-      const LightReceiver receiver(last, context.time);
-      weight = mis_weight(weighted.heuristic, scatter_pdf, lights_.probability(light, &receiver) * pdf);
+      weight = mis_weight(weighted.heuristic, scatter_pdf, lights_.probability(light, &last) * pdf);
     }
     add(depth, radiance * weight);
   };
@@ -335,7 +334,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->is_delta() ? 0.0f : s->pdf;
-    last = point;
+    last = {point, context.time};
     ray = spawn_ray(point, s->wi, ray);
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {

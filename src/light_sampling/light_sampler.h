@@ -15,11 +15,12 @@ namespace etd {
 
 // The point that asks for light, by which a sampler may choose.
 struct LightReceiver {
+  LightReceiver() = default;
   LightReceiver(const SurfacePoint& s, float time_of_path) : p(s.p), n(s.ng), time(time_of_path) {}
 
   Point3 p;
   Vec3 n;  // unit geometric normal
-  float time;
+  float time = 0;
 };
 
 struct LightChoice {

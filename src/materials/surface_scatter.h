@@ -14,8 +14,9 @@ namespace etd {
 
 class SurfaceScatter {
  public:
-  // frame.z is the shading normal; ng is the geometric normal on its side.
+  // frame.z is the shading normal; ng is the geometric normal on its side. The closure must outlive it.
   SurfaceScatter(const Bsdf& bsdf, const Frame& frame, Vec3 ng) : bsdf_(bsdf), frame_(frame), ng_(ng) {}
+  SurfaceScatter(const Bsdf&&, const Frame&, Vec3) = delete;
 
   const Bsdf& bsdf() const { return bsdf_; }
 
@@ -94,7 +95,7 @@ class SurfaceScatter {
     return s;
   }
 
-  const Bsdf bsdf_;
+  const Bsdf& bsdf_;
   Frame frame_;
   Vec3 ng_;
 };

@@ -201,8 +201,8 @@ edit(integrators/path.cpp [[if (!only_scattering && mis) {]] [[if (!FAULT && !on
 
 closed_forms(tests sky_and_square)
 fault(mis-without-choice-of-light "the weight of emission leaves out the chance that the light is chosen" "${tests}:StatisticalAgreement.*lamps*")
-edit(integrators/path.cpp [[pdf_light = lights_.probability(light, &receiver) * pdf;]]
-     [[pdf_light = (FAULT ? 1.0f : lights_.probability(light, &receiver)) * pdf;]])
+edit(integrators/path.cpp [[pdf_light = lights_.probability(light, &last) * pdf;]]
+     [[pdf_light = (FAULT ? 1.0f : lights_.probability(light, &last)) * pdf;]])
 
 fault(power-heuristic-squares-one "the power heuristic squares one of the two densities alone" "VerifyScene.*")
 edit(core/mis.h [[p2 / (p2 + o2) : larger;]] [[p2 / (p2 + (FAULT ? other : o2)) : larger;]])
@@ -375,7 +375,7 @@ edit(lights/moving_light.cpp [[s->pdf *= solid_angle_stretch(at, s->wi);]]
 # ---- samples that are no numbers
 
 fault(invalid-samples-kept "NaN reaches the film" "InvalidSamples.*")
-edit(film/invalid_samples.cpp [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
+edit(film/invalid_samples.h [[const bool sound = is_sound(s);]] [[const bool sound = FAULT || is_sound(s);]])
 
 # ---- images
 

@@ -46,15 +46,15 @@ ScatterModel tilted_model(const BsdfExample& e, double degrees) {
   // Viewer and light do not change places, and importance may gain energy (Veach 1997, section 5.3.3).
   BsdfTraits traits = e.bsdf.traits();
   traits.reciprocal = traits.energy_conserving = false;
-  const SurfaceScatter scatter(e.bsdf, Frame::from_z(ns), {0, 0, 1});
+  const auto scatter = [bsdf = e.bsdf, frame = Frame::from_z(ns)] { return SurfaceScatter(bsdf, frame, {0, 0, 1}); };
   ScatterModel m{
       fmt::format("{} tilted by {}", e.name, degrees), traits, e.bsdf.lobes(), false, e.min_cos, ns, {}, {}, {}};
   m.eval_cos = [=](Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) {
-    return scatter.eval_cos(wo, wi, mode, rng);
+    return scatter().eval_cos(wo, wi, mode, rng);
   };
-  m.pdf = [=](Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides) { return scatter.pdf(wo, wi, mode, sides); };
+  m.pdf = [=](Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides) { return scatter().pdf(wo, wi, mode, sides); };
   m.sample = [=](Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides) {
-    return scatter.sample(wo, u, mode, rng, sides);
+    return scatter().sample(wo, u, mode, rng, sides);
   };
   return m;
 }
