@@ -47,7 +47,8 @@ AreaEmission read_emission(const ParamReader& p, const AreaLightContext& context
   const auto [it, is_new] = context.data.image_of.try_emplace(&p.use(), nullptr);
   if (is_new) {
     reject_radiance_beside_file(p);
-    if (auto image = read_light_image(p, context.images, context.data)) it->second = context.data.keep(std::move(image));
+    if (auto image = read_light_image(p, context.images, context.data))
+      it->second = context.data.keep(std::move(image));
   }
   e.image = it->second;
   return e;
