@@ -246,11 +246,11 @@ TEST(LightSampler, SharesOfFiniteAndInfiniteLights) {
   EXPECT_EQ(alike.probability(2, nullptr), 0.0f);
   EXPECT_FLOAT_EQ(alike.probability(3, nullptr), 1 / 3.0f);
   const std::vector<Light> dark{area(0), infinite(0)};
-  for (const LightSamplerModel& m : light_sampler_models()) {
-    EXPECT_EQ(make_light_sampler(m.name, {four}).name(), m.name);
-    EXPECT_FALSE(make_light_sampler(m.name, {dark}).sample(0.5, nullptr));
-    EXPECT_EQ(make_light_sampler(m.name, {dark}).probability(1, nullptr), 0.0f);
-    EXPECT_FALSE(make_light_sampler(m.name, {}).sample(0, nullptr));
+  for (const LightSamplerModel& model : light_sampler_models()) {
+    EXPECT_EQ(make_light_sampler(model.name, {four}).name(), model.name);
+    EXPECT_FALSE(make_light_sampler(model.name, {dark}).sample(0.5, nullptr));
+    EXPECT_EQ(make_light_sampler(model.name, {dark}).probability(1, nullptr), 0.0f);
+    EXPECT_FALSE(make_light_sampler(model.name, {}).sample(0, nullptr));
   }
   EXPECT_FALSE(LightSampler().sample(0, nullptr));
 }

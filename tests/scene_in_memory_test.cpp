@@ -6,6 +6,7 @@
 #include "model_uses.h"
 #include "render_helper.h"
 #include "same_bits.h"
+#include "scene/compile.h"
 #include "temp_folder.h"
 
 namespace etd {

@@ -21,8 +21,8 @@ Viewpoint viewpoint_of(const SceneDescription& description, const CompileOptions
   CameraData data;
   const Camera camera = make_camera(
       description.camera,
-      {Transform::translate(Point3d{} - middle) * to_world, options.width, options.height, description.folder}, data,
-      unheard);
+      {Transform::translate(Point3d{} - middle) * to_world, options.width, options.height, description.image_source()},
+      data, unheard);
   const Ray ray = camera.generate_ray(
       {{0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height)}, {0.5f, 0.5f}, 0});
   view.position = middle + to_double(ray.o - Point3{});
