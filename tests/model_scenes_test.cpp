@@ -256,6 +256,8 @@ const Unseen kUnseen[] = {
     {Family::kIntegrator, "sppm", "radiusscale", "the tests of sppm vary it"},
     {Family::kIntegrator, "sppm", "photonsperiteration", "the tests of sppm vary it"},
     {Family::kIntegrator, "sppm", "directlight", "the tests of sppm vary it"},
+    {Family::kIntegrator, "sppm", "photonmemory", "the tests of sppm vary it"},
+    {Family::kIntegrator, "sppm", "neardelta", "the tests of sppm vary it"},
     {Family::kIntegrator, "sppm", "roulettedepth", "as of the integrator path"},
     {Family::kIntegrator, "sppm", "lightsampler", "as of the integrator path"},
     {Family::kIntegrator, "sppm", "paths", "as of the integrator path"},

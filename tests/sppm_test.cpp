@@ -11,6 +11,7 @@
 
 #include "expect_agreement.h"
 #include "formats/pbrt/reader.h"
+#include "render/memory.h"
 #include "render/session.h"
 #include "same_bits.h"
 #include "verify/scene/extrapolate.h"
@@ -19,6 +20,7 @@ namespace etd {
 namespace {
 
 constexpr double kFamilyLevel = 1e-4;
+const std::string kFolder = "tests/scenes/";
 
 RenderOverrides overrides(uint32_t spp, uint64_t seed) {
   RenderOverrides o;
@@ -30,16 +32,16 @@ RenderOverrides overrides(uint32_t spp, uint64_t seed) {
   return o;
 }
 
-Film render_agree(const std::string& scene, const RenderOverrides& o) {
-  return render_scene(source_path("tests/scenes/agree/" + scene + ".pbrt"), o);
+Film render_named(const std::string& scene, const RenderOverrides& o) {
+  return render_scene(source_path(kFolder + scene + ".pbrt"), o);
 }
 
 TEST(Sppm, BitsDoNotDependOnThreadsOrTiles) {
   RenderOverrides o = overrides(32, 3);
   o.threads = 1;
-  const Film one = render_agree("glass_caustic", o);
+  const Film one = render_named("agree/glass_caustic", o);
   o.threads = 3, o.tile_size = 5;
-  expect_same_bits(one, render_agree("glass_caustic", o));
+  expect_same_bits(one, render_named("agree/glass_caustic", o));
   EXPECT_GT(one.total(8, 12).indirect[1], 0.0);
 }
 
@@ -47,7 +49,7 @@ TEST(Sppm, BitsDoNotDependOnThreadsOrTiles) {
 std::optional<PreparedRender> prepare(const RenderOverrides& o) {
   Diagnostics diagnostics;
   auto prepared =
-      prepare_render(read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics), o, diagnostics);
+      prepare_render(read_pbrt(source_path(kFolder + "agree/glass_caustic.pbrt"), diagnostics), o, diagnostics);
   EXPECT_TRUE(prepared) << diagnostics.format_all();
   return prepared;
 }
@@ -68,7 +70,7 @@ TEST(Sppm, RadiiShrinkAsTheySay) {
 
 TEST(Sppm, TakesPbrtsParametersAndSaysItsRadiiAndThatErrorsAreOfTheNoiseAlone) {
   Diagnostics diagnostics;
-  SceneDescription scene = read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics);
+  SceneDescription scene = read_pbrt(source_path(kFolder + "agree/glass_caustic.pbrt"), diagnostics);
   RenderOverrides o = overrides(16, 1);
   o.set = {{"integrator.radius", "0.2"}, {"integrator.photonsperiteration", "5000"}, {"integrator.maxdepth", "4"}};
   auto prepared = prepare_render(scene, o, diagnostics);
@@ -86,6 +88,32 @@ TEST(Sppm, TakesPbrtsParametersAndSaysItsRadiiAndThatErrorsAreOfTheNoiseAlone) {
   EXPECT_NE(all.find("etendue:pixels = correlated"), std::string::npos) << all;
 }
 
+// The scene's metal is narrower than the default: it shows what is passed like a mirror where it was gathered at.
+TEST(Sppm, NearMirrorsArePassedOrNot) {
+  RenderOverrides o = overrides(16, 1);
+  const Film passed = render_named("photons/holes_and_mixtures", o);
+  o.set = {{"integrator.neardelta", "0.01"}};
+  EXPECT_NE(picture(passed), picture(render_named("photons/holes_and_mixtures", o)));
+  // Nothing there is a lobe narrower than this and wider than the default.
+  o.set = {{"integrator.neardelta", "0.5"}};
+  EXPECT_EQ(picture(passed), picture(render_named("photons/holes_and_mixtures", o)));
+}
+
+TEST(Sppm, MemoryOfPhotonsIsBounded) {
+  RenderOverrides o = overrides(16, 1);
+  o.set = {{"integrator.photonsperiteration", "60000000"}, {"integrator.photonmemory", "1"}};
+  auto bounded = prepare(o);
+  EXPECT_LE(bounded->integrator->bytes(), 1u << 20);
+  EXPECT_GT(bounded->integrator->bytes(), 9u << 16);
+  EXPECT_EQ(forecast_memory(*bounded).integrator, bounded->integrator->bytes());
+  o.set = {{"integrator.photonsperiteration", "4096"}};
+  const auto small = prepare(o);
+  EXPECT_GT(small->integrator->bytes(), 4096u * 16);
+  EXPECT_LT(small->integrator->bytes(), 1u << 20);
+  RenderObserver nobody;
+  run_render(*bounded, nobody);
+}
+
 // Two radii, extrapolated to 0, are path tracing's image, of everything that path tracing can see too. `effort`: times
 // the samples.
 void expect_image_of_path(const std::string& scene, const char* direct, double visible, uint32_t effort,
@@ -93,16 +121,16 @@ void expect_image_of_path(const std::string& scene, const char* direct, double v
   const auto films = [&](const TestRun& run) {
     RenderOverrides o = overrides(512 * effort * run.more, 1 + run.fresh_seeds);
     o.integrator = "path";
-    Film path = render_scene(source_path(scene), o);
+    Film path = render_named(scene, o);
     o = overrides(128 * effort * run.more, 2 + run.fresh_seeds);
     o.set = {{"integrator.photonsperiteration", "4000"},
              {"integrator.paths", "from_camera"},
              {"integrator.directlight", direct},
              {"integrator.radiusscale", "0.8"}};
-    const Film wide = render_scene(source_path(scene), o);
+    const Film wide = render_named(scene, o);
     o.seed = 3 + run.fresh_seeds;
     o.set.back().second = "0.4";
-    return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_scene(source_path(scene), o)));
+    return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_named(scene, o)));
   };
   expect_agreement(scene, repeated_level(kFamilyLevel, scenes, film_test_count(16, 16)), films, visible);
 }
@@ -111,8 +139,7 @@ class StatisticalSppm : public testing::TestWithParam<const char*> {};
 
 TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
   const std::string scene = GetParam();
-  expect_image_of_path("tests/scenes/agree/" + scene + ".pbrt", "photons", 0.03, scene == "holes_and_mixtures" ? 2 : 1,
-                       3);
+  expect_image_of_path(scene, "photons", 0.03, scene == "photons/holes_and_mixtures" ? 2 : 1, 3);
 }
 
 class StatisticalSppmSlope : public testing::TestWithParam<const char*> {};
@@ -131,7 +158,7 @@ TEST_P(StatisticalSppmSlope, DifferenceFallsAsTheCubeRootOfTheIterations) {
   RenderOverrides o = overrides(2048, 1);
   o.integrator = "path";
   o.set = {{"integrator.components", "indirect"}};
-  const std::vector<float> reference = picture(render_agree(GetParam(), o));
+  const std::vector<float> reference = picture(render_named(GetParam(), o));
   // Logarithms of the number of iterations and of the difference.
   std::vector<std::pair<double, double>> points;
   for (const uint32_t iterations : {16, 64, 256, 1600}) {
@@ -139,7 +166,7 @@ TEST_P(StatisticalSppmSlope, DifferenceFallsAsTheCubeRootOfTheIterations) {
     o.set = {{"integrator.components", "indirect"},
              {"integrator.photonsperiteration", "400"},
              {"integrator.radiusscale", "0.2"}};
-    points.emplace_back(std::log(iterations), std::log(rms_difference(render_agree(GetParam(), o), reference)));
+    points.emplace_back(std::log(iterations), std::log(rms_difference(render_named(GetParam(), o), reference)));
   }
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [a, b] : points) x += a / 4, y += b / 4, xx += a * a / 4, xy += a * b / 4;
@@ -147,17 +174,17 @@ TEST_P(StatisticalSppmSlope, DifferenceFallsAsTheCubeRootOfTheIterations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppm,
-                         testing::Values("conductor_box", "glass_caustic", "holes_and_mixtures"));
-INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppmSlope, testing::Values("conductor_box", "glass_caustic"));
+                         testing::Values("agree/conductor_box", "agree/glass_caustic", "photons/holes_and_mixtures"));
+INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppmSlope, testing::Values("agree/conductor_box", "agree/glass_caustic"));
 
 // All scenes that estimators are compared on, and all closed forms.
 class SlowSppm : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> all_scenes() {
   std::vector<std::string> all;
-  for (const std::string folder : {"tests/scenes/agree", "tests/scenes/closed"})
-    for (const auto& entry : std::filesystem::directory_iterator(source_path(folder)))
-      if (entry.path().extension() == ".pbrt") all.push_back(folder + "/" + entry.path().filename().string());
+  for (const std::string folder : {"agree", "closed", "photons"})
+    for (const auto& entry : std::filesystem::directory_iterator(source_path(kFolder + folder)))
+      if (entry.path().extension() == ".pbrt") all.push_back(folder + "/" + entry.path().stem().string());
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -168,7 +195,7 @@ TEST_P(SlowSppm, ConvergesToTheImageOfPathTracing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SlowSppm, testing::ValuesIn(all_scenes()), [](const auto& scene) {
-  std::string name = scene.param.substr(13);
+  std::string name = scene.param;
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
   return name;
 });

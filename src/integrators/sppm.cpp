@@ -55,7 +55,7 @@ const ModelDecl& SppmIntegrator::decl() {
          .min = 0,
          .max = 1,
          .doc = "Paths from the camera pass surfaces by whose lobes are all narrower than this alpha, as by mirrors, "
-                "and gather photons beyond; never changes the limit."},
+                "and gather photons beyond; never changes what the image converges to."},
         {.name = "directlight",
          .type = ParamType::kString,
          .default_value = std::string("sampled"),
