@@ -209,11 +209,12 @@ void SppmIntegrator::trace_path(Sampler& sampler, RayCounts& rays, F&& keep) con
       scene_, emitters_, settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
 }
 
+// The same for all seeds, so that radii are.
 std::vector<Point3> SppmIntegrator::pilot_photons() const {
   std::vector<Point3> photons;
   RayCounts rays;
   for (uint32_t k = 0; k < kPilotPaths; ++k) {
-    Sampler sampler(context_.sampler, context_.seed);
+    Sampler sampler({}, 0);
     sampler.start(kPilotStream, 0, k);
     trace_path(sampler, rays, [&](const Photon& photon) { photons.push_back(photon.p); });
   }
