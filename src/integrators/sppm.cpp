@@ -222,9 +222,10 @@ std::vector<Point3> SppmIntegrator::pilot_photons() const {
 }
 
 // As wide as one and a half pixels where most of what the camera sees is, or so wide that ten photons are found there
-// if they spread evenly over a sphere. How many come there the pilot tells, in a larger sphere if few do.
+// if they spread evenly over a sphere, but no wider than a fifth of that sphere: beyond, bias would not go with the
+// square. How many come there the pilot tells, in a larger sphere if few do.
 double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
-  constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5;
+  constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5, kWidest = 0.2;
   constexpr size_t kEnough = 64;
   const BoundingSphere& seen = scene_.seen.radius > 0.0f ? scene_.seen : scene_.emission_disks.scene();
   const double pixel = 2.0 * static_cast<double>(seen.radius) / std::sqrt(double(context_.width) * context_.height);
@@ -235,7 +236,7 @@ double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
   const double size = std::max<double>(seen.radius, distances[std::min(kEnough, distances.size()) - 1]);
   const auto found = std::upper_bound(distances.begin(), distances.end(), size) - distances.begin();
   const double photons = static_cast<double>(settings_.photons) * static_cast<double>(found) / kPilotPaths;
-  return std::max(kPixelsWide * pixel, size * std::sqrt(4.0 * kPhotonsWanted / photons));
+  return std::max(kPixelsWide * pixel, size * std::min(kWidest, std::sqrt(4.0 * kPhotonsWanted / photons)));
 }
 
 void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) {
