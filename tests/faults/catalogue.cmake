@@ -315,7 +315,7 @@ fault(direct-light-twice "photons bring direct light that is sampled already" "$
 edit(integrators/sppm.cpp [[(v.depth == 1 && !settings_.direct_photons)]] [[(!FAULT && v.depth == 1 && !settings_.direct_photons)]])
 
 fault(photon-paths-too-long "events before and behind the photon are not counted together" "${sppm}")
-edit(integrators/sppm.cpp [[depth + photon.events + 1 > settings_.max_depth]] [[!FAULT && depth + photon.events + 1 > settings_.max_depth]])
+edit(integrators/sppm.cpp [[depth + photon.events + 1 > settings_.max_depth]] [[(!FAULT && depth + photon.events + 1 > settings_.max_depth)]])
 
 fault(radius-shrinks-too-fast "the law of the radius is that of its square" "Sppm.*")
 edit(integrators/sppm.cpp [[std::exp(0.5 * log);]] [[std::exp((FAULT ? 1.0 : 0.5) * log);]])
