@@ -8,7 +8,8 @@ namespace etd {
 SamplerKind::SamplerKind() : SamplerKind(SobolSampler()) {}
 
 std::string_view SamplerKind::name() const {
-  return dispatch<std::string_view, Samplers>(storage_, [](const auto& kind) { return kind.decl().name; });
+  return dispatch<std::string_view, Samplers>(storage_,
+                                              [](const auto& kind) -> std::string_view { return kind.decl().name; });
 }
 
 SamplerTraits SamplerKind::traits() const {
