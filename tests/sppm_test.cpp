@@ -143,6 +143,21 @@ TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
   expect_image_of_path(scene, "photons", 0.03, scene == "photons/holes_and_mixtures" ? 2 : 1, 3);
 }
 
+// With all but diffuse closures passed, metals get direct light from light sampling and scattering together.
+TEST(StatisticalSppmDirect, NearMirrorsShowDirectLightOnce) {
+  const auto films = [&](const TestRun& run) {
+    RenderOverrides o = overrides(1024 * run.more, 1 + run.fresh_seeds);
+    o.set = {{"integrator.components", "direct"}};
+    o.integrator = "path";
+    Film path = render_named("agree/conductor_box", o);
+    o.integrator = "sppm";
+    o.seed = 2 + run.fresh_seeds;
+    o.set.emplace_back("integrator.neardelta", "1");
+    return std::pair(std::move(path), render_named("agree/conductor_box", o));
+  };
+  expect_agreement("direct light of near mirrors", repeated_level(kFamilyLevel, 1, film_test_count(16, 16)), films);
+}
+
 class StatisticalSppmSlope : public testing::TestWithParam<const char*> {};
 
 // Mean square of the difference over pixels and channels, without the largest 2 %: single bright photons would decide.

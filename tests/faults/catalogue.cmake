@@ -308,7 +308,7 @@ fault(photons-of-other-times "photons and camera see what moves at different tim
 edit(integrators/sppm.cpp [[settings_.from_camera, time_};]]
      [[settings_.from_camera, FAULT ? std::nullopt : std::optional<float>(time_)};]])
 
-fault(near-mirrors-twice "light that a nearly smooth closure finds is not weighed against light sampling" "${sppm}")
+fault(near-mirrors-twice "light that a nearly smooth closure finds is not weighed against light sampling" "StatisticalSppmDirect.*")
 edit(integrators/sppm.cpp [[if (scatter_pdf > 0.0f) {]] [[if (!FAULT && scatter_pdf > 0.0f) {]])
 
 fault(direct-light-twice "photons bring direct light that is sampled already" "${sppm}")
