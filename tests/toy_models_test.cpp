@@ -293,6 +293,7 @@ TEST(ToyModels, Sampler) {
   const auto toy = made<Samplers, ToySampler>([](const ParamReader&) { return ToySampler(); });
   const SampleNumber number{1, 6, 2};
   EXPECT_EQ((dispatched<Vec2, Samplers>(toy, [&](const auto& s) { return s.get_2d(number); })), (Vec2{3, 2}));
+  EXPECT_FALSE((dispatched<SamplerTraits, Samplers>(toy, [](const auto& s) { return s.kTraits; }).stratified));
 }
 
 struct ToyFilm {
