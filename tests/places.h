@@ -1,5 +1,5 @@
-// Where the project and its program lie. Only places.cpp is compiled with the paths, so that a compiler cache knows the
-// other tests in every folder.
+// These say where the project and its program lie. Only places.cpp is compiled with the paths, so that a compiler cache
+// knows the other tests in every folder.
 #pragma once
 
 #include <filesystem>

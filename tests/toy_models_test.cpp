@@ -235,7 +235,7 @@ TEST(ToyModels, AreaLight) {
   EXPECT_FLOAT_EQ(power[0], 0.5f);
 }
 
-// Every light alike, but the first for receivers behind a plane.
+// It chooses all lights alike, but the first for receivers behind a plane.
 struct ToyLightSampler {
   static constexpr const char* kName = "toy";
   static constexpr const char* kDoc = "by chance";
@@ -280,7 +280,7 @@ TEST(ToyModels, LightSampler) {
   EXPECT_EQ(choice(&receiver).probability, 1.0f);
 }
 
-// Half of every sample's number.
+// Its numbers are half of the sample's.
 struct ToySampler {
   static constexpr SamplerTraits kTraits{};
   static const ModelDecl& decl() { return toy_decl(Family::kSampler); }

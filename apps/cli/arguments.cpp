@@ -96,7 +96,7 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
   add_value(command, "--seed", o.seed, "another seed gives another estimate; the same one gives the same bits", "N");
   add_value(command, "--sampler", o.sampler, sampler_names() + "; other names as scenes take them", "NAME");
   add_value(command, "--integrator", o.integrator,
-            "the algorithm, in place of the scene's: path or light (etendue describe integrator)", "NAME");
+            "the algorithm, in place of the scene's: path, light or sppm (etendue describe integrator)", "NAME");
   // Short names for parameters of the integrator.
   const auto shorthand = [&](const std::string& option, const char* key, const char* help, const char* type) {
     command

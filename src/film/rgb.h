@@ -7,8 +7,8 @@ namespace etd {
 
 struct RgbFilm {
   static const ModelDecl& decl();
-  // Of any film that has the parameters of this one. Bounds that leave nothing of the image are an error; then the crop
-  // is the whole image.
+  // Makes any film that has the parameters of this one. Bounds that leave nothing of the image are an error; then the
+  // crop is the whole image.
   static FilmModel create(const ParamReader& p, const FilmContext& context);
 };
 

@@ -209,7 +209,7 @@ void SppmIntegrator::trace_path(Sampler& sampler, RayCounts& rays, F&& keep) con
       scene_, emitters_, settings, sampler, rays, [](const LightPathStart&) {}, at_vertex);
 }
 
-// The same for all seeds, so that radii are.
+// The pilot is the same for all seeds, so that radii are.
 std::vector<Point3> SppmIntegrator::pilot_photons() const {
   std::vector<Point3> photons;
   RayCounts rays;
@@ -221,9 +221,9 @@ std::vector<Point3> SppmIntegrator::pilot_photons() const {
   return photons;
 }
 
-// As wide as one and a half pixels where most of what the camera sees is, or so wide that ten photons are found there
-// if they spread evenly over a sphere, but no wider than a fifth of that sphere: beyond, bias would not go with the
-// square. How many come there the pilot tells, in a larger sphere if few do.
+// The radius is one and a half pixels where most of what the camera sees is, or so large that ten photons are found
+// there if they spread evenly over a sphere, but no larger than a fifth of that sphere: beyond, bias would not go with
+// the square. The pilot tells how many come there; where few do, a larger sphere is taken.
 double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
   constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5, kWidest = 0.2;
   constexpr size_t kEnough = 64;

@@ -11,12 +11,12 @@
 
 namespace etd {
 
-// By what a scene says instead of a file's name. Only files have an encoding or layers, and only those of textures lose
+// A scene names them where it could name a file. Only files have an encoding or layers, and only those of textures lose
 // an opaque alpha (without_opaque_alpha()) or are mended (mend_texels()); images of lights and apertures are mended
 // too.
 using NamedImages = std::map<std::string, std::shared_ptr<const Image>>;
 
-// Where the images are that a scene names: in memory or, those that are not, in files.
+// It says where the images are that a scene names: in memory or, those that are not, in files.
 struct ImageSource {
   std::filesystem::path folder = {};       // where relative file names start
   const NamedImages* in_memory = nullptr;  // outlives its use; null: none

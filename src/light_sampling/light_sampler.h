@@ -58,7 +58,7 @@ class LightSampler {
   std::shared_ptr<const LightSamplerData> data_;  // that the stored value refers to
 };
 
-// Each by its name and what it says of itself: "lights are chosen ...".
+// A light sampler's name and what it says of itself, behind "lights are chosen".
 struct LightSamplerModel {
   std::string name, doc;
 };

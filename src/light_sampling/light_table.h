@@ -10,7 +10,7 @@ namespace etd {
 struct LightTable {
   const AliasTable* table = nullptr;  // null: no light emits
 
-  // In proportion to the weights, which are finite and not negative; `data` keeps the table.
+  // Makes a choice in proportion to the weights, which are finite and not negative; `data` keeps the table.
   static const AliasTable* make(const std::vector<double>& weights, LightSamplerData& data) {
     const bool any = std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
     return any ? &data.tables.emplace_back(weights) : nullptr;

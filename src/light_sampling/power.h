@@ -1,6 +1,6 @@
-// Finite lights in proportion to the luminance of their power and, a share of them, of what the viewer sees of it;
-// infinite ones with a fixed share, because their power over a scene's surfaces says little about what a point sees of
-// them.
+// It chooses finite lights in proportion to the luminance of their power and, a share of them, of what the viewer sees
+// of it; infinite ones with a fixed share, because their power over a scene's surfaces says little about what a point
+// sees of them.
 #pragma once
 
 #include "light_sampling/light_table.h"
@@ -17,7 +17,7 @@ struct PowerLightSampler : LightTable {
   static constexpr double kSeenShare = 0.25;
 
   static PowerLightSampler create(const LightSamplerContext& context, LightSamplerData& data);
-  // Of scenes that have finite and infinite lights, of which some are seen.
+  // The probabilities, where there are finite and infinite lights of which some are seen.
   static std::vector<double> law(const LightSamplerContext& context);
 };
 

@@ -1,4 +1,4 @@
-// All lights that emit alike.
+// It chooses all lights that emit alike.
 #pragma once
 
 #include "light_sampling/light_table.h"
@@ -17,7 +17,7 @@ struct UniformLightSampler : LightTable {
     }
     return {{LightTable::make(weights, data)}};
   }
-  // Of scenes whose lights all emit.
+  // The probabilities, where all lights emit.
   static std::vector<double> law(const LightSamplerContext& context) {
     const size_t count = context.lights.size();
     return std::vector<double>(count, 1.0 / static_cast<double>(count));

@@ -13,10 +13,10 @@
 
 namespace etd {
 
-// Those on shapes. A type T of the list has T::decl(), T::create(), and T::On<Surface>, its light on a surface.
+// These stand on shapes. A type T of the list has T::decl(), T::create(), and T::On<Surface>, its light on a surface.
 using AreaLightModels = TypeList<DiffuseArea>;
 
-// Those that stand by themselves.
+// These stand by themselves.
 using StandingLights = TypeList<PortalInfiniteLight, ImageInfiniteLight, ConstantInfiniteLight, DistantLight,
                                 PointLight<IsotropicIntensity>, PointLight<SpotIntensity>,
                                 PointLight<GoniometricIntensity>, PointLight<ProjectionIntensity>>;

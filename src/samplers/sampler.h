@@ -17,7 +17,7 @@ struct SampleNumber {
   uint64_t key = 0;  // of seed, replicate and stream
   uint32_t index = 0, dimension = 0;
 
-  // The same for all indices.
+  // This hash is the same for all indices.
   ETD_FN uint64_t hash() const { return hash_combine(key, dimension); }
 };
 
