@@ -163,6 +163,13 @@ TEST(Diagnostics, ShowTheLineWithACaret) {
             "   first hint\n   second hint\n1 error\n");
 }
 
+TEST(Diagnostics, PlacesOfOtherDiagnosticsAreLeftOut) {
+  Diagnostics other, diagnostics;
+  const int32_t file = other.sources().add("a.pbrt", "Shape\n");
+  diagnostics.warning({file, 1, 1}, "a message");
+  EXPECT_EQ(diagnostics.format_all(), "warning: a message\n1 warning\n");
+}
+
 TEST(Diagnostics, LongLinesAreCutAroundTheCaret) {
   Diagnostics d;
   const std::string line = std::string(3000000, 'a') + "X" + std::string(3000000, 'b');

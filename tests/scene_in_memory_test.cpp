@@ -21,11 +21,16 @@ LightSource "infinite" "rgb L" [ 0.4 0.5 0.6 ]
 LightSource "point" "point3 from" [ 1 2 3 ] "rgb I" [ 9 8 7 ]
 )";
 
-SceneDescription read(const std::string& world, const TempFolder& folder) {
-  Diagnostics diagnostics;
+// Places in the description refer to `diagnostics`.
+SceneDescription read(const std::string& world, const TempFolder& folder, Diagnostics& diagnostics) {
   SceneDescription scene = read_pbrt_text(kView + world, "test.pbrt", folder.path(), diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   return scene;
+}
+
+SceneDescription read(const std::string& world, const TempFolder& folder) {
+  Diagnostics diagnostics;
+  return read(world, folder, diagnostics);
 }
 
 RenderOverrides overrides() {
@@ -137,11 +142,12 @@ TEST(SceneInMemory, AnApertureLooksLikeItsFile) {
 // Light that is not finite would spoil everything, wherever its image comes from.
 TEST(SceneInMemory, ImagesOfLightsAreMended) {
   const TempFolder folder;
-  SceneDescription scene = read("LightSource \"infinite\" \"string layer\" \"x\"" + kFile + kBall, folder);
+  Diagnostics diagnostics;
+  SceneDescription scene =
+      read("LightSource \"infinite\" \"string layer\" \"x\"" + kFile + kBall, folder, diagnostics);
   std::vector<float> texels(8 * 4 * 3, 1.0f);
   texels[3] = std::numeric_limits<float>::quiet_NaN();
   scene.images["a.pfm"] = std::make_shared<const Image>(8, 4, 3, texels);
-  Diagnostics diagnostics;
   EXPECT_TRUE(compile(scene, {.width = 16, .height = 12}, diagnostics).scene);
   EXPECT_NE(diagnostics.format_all().find("its texel (1, 0) is not finite"), std::string::npos);
   EXPECT_NE(diagnostics.format_all().find("\"layer\" changes nothing"), std::string::npos);

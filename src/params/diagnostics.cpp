@@ -178,13 +178,15 @@ void Diagnostics::unsupported(SourceLoc loc, std::string what, std::string subst
 
 std::string Diagnostics::format(const Diagnostic& d) const {
   std::string out;
-  if (d.loc.file >= 0) {
+  // A scene that was read with other diagnostics, or made in code, has places that are unknown here.
+  const bool known = d.loc.file >= 0 && d.loc.file < sources_.count();
+  if (known) {
     out += sources_.name(d.loc.file) + ":";
     if (d.loc.line > 0) out += fmt::format("{}:{}:", d.loc.line, std::max(d.loc.column, 1));
     out += " ";
   }
   out += fmt::format("{}: {}\n", severity_label(d.severity), printable(d.message).text);
-  if (d.loc.file >= 0 && d.loc.line > 0) out += excerpt(sources_.line(d.loc.file, d.loc.line), d.loc);
+  if (known && d.loc.line > 0) out += excerpt(sources_.line(d.loc.file, d.loc.line), d.loc);
   for (std::string_view rest = d.hint; !rest.empty();) {
     const size_t end = std::min(rest.find('\n'), rest.size());
     out += fmt::format("   {}\n", printable(rest.substr(0, end)).text);
