@@ -42,9 +42,9 @@ struct Scene {
   bool costly = false;          // its other samplers and roulettes are left to the slow set
 };
 const Scene kScenes[] = {{"conductor_box", 320, 64, 64, 128, 128},
-                         {"textured_room", 320, 96, 128, 64, 0, 96},
-                         {"sky_instances", 288, 352, 128, 256, 160, 96, 0.05},
-                         {"glass_caustic", 320, 128, 128, 128},
+                         {"textured_room", 320, 96, 128, 64, 0, 96, 0.01, true},
+                         {"sky_instances", 288, 352, 128, 256, 160, 96, 0.05, true},
+                         {"glass_caustic", 320, 128, 128, 128, 0, 0, 0.01, true},
                          {"lamps", 512, 352, 512, 256, 0, 256, 0.03, true},
                          {"moving_lamps", 576, 896, 640, 640, 0, 0, 0.03, true},
                          {"window_room", 1024, 160, 320, 128, 0, 0, 0.03, true},
