@@ -85,6 +85,20 @@ TEST(SceneInMemory, AnImageLooksLikeItsFile) {
   }
 }
 
+TEST(SceneInMemory, LayersOfTexturesAreNotSilentlyIgnored) {
+  const TempFolder folder;
+  Diagnostics diagnostics;
+  SceneDescription scene = read(R"(Texture "t" "spectrum" "imagemap" "string filename" "a.exr" "string layer" "x"
+Material "diffuse" "texture reflectance" "t"
+Shape "sphere"
+)",
+                                folder, diagnostics);
+  scene.images["a.exr"] = std::make_shared<const Image>(2, 2, 3, std::vector<float>(12, 0.5f));
+  EXPECT_TRUE(compile(scene, {.width = 16, .height = 12}, diagnostics).scene);
+  EXPECT_NE(diagnostics.format_all().find("\"layer\" changes nothing: image \"a.exr\" is in memory"), std::string::npos)
+      << diagnostics.format_all();
+}
+
 // Renders the world with "a.pfm" as a file and as an image in memory, and expects the same bits.
 void expect_as_file(const std::string& world, int width, int height) {
   SCOPED_TRACE(world);
@@ -143,8 +157,7 @@ TEST(SceneInMemory, AnApertureLooksLikeItsFile) {
 TEST(SceneInMemory, ImagesOfLightsAreMended) {
   const TempFolder folder;
   Diagnostics diagnostics;
-  SceneDescription scene =
-      read("LightSource \"infinite\" \"string layer\" \"x\"" + kFile + kBall, folder, diagnostics);
+  SceneDescription scene = read("LightSource \"infinite\" \"string layer\" \"x\"" + kFile + kBall, folder, diagnostics);
   std::vector<float> texels(8 * 4 * 3, 1.0f);
   texels[3] = std::numeric_limits<float>::quiet_NaN();
   scene.images["a.pfm"] = std::make_shared<const Image>(8, 4, 3, texels);

@@ -45,6 +45,8 @@ int32_t ImageStore::add(const Param& filename, std::string_view encoding, const 
   if (!is_new) return known->second;
   const std::string& name = filename.strings[0];
   const auto given = given_.find(name);
+  if (given != given_.end() && !layer.empty())
+    diagnostics.warning(filename.loc, fmt::format("\"layer\" changes nothing: image \"{}\" is in memory", name));
   requests_.push_back({path,
                        {parsed, layer, diagnostics.limits()},
                        options_text,
