@@ -50,6 +50,25 @@ TEST(SphericalRectangle, IsTwoTriangles) {
   }
 }
 
+// From next to its plane a rectangle is a hemisphere or nothing, and from afar hardly more than nothing.
+TEST(SphericalRectangle, IsRightInTheLimits) {
+  const auto solid_angle = [](double x, double y, double distance) {
+    return SphericalRectangle(kOrigin, {x, y, distance}, {2, 0, 0}, {0, 3, 0}).solid_angle();
+  };
+  for (double distance = 1e-3; distance > 1e-300; distance *= 1e-3) {
+    EXPECT_NEAR(solid_angle(-1, -1, distance), 2 * kPiD, 6 * distance + 1e-7);
+    for (const auto& [x, y] :
+         {std::pair{3.0, -1.0}, {-5.0, -1.0}, {-1.0, 7.0}, {-1.0, -7.0}, {4.0, 4.0}, {-9.0, 4.0}}) {
+      EXPECT_GE(solid_angle(x, y, distance), 0.0);
+      EXPECT_LE(solid_angle(x, y, distance), 6 * distance + 1e-7);
+    }
+  }
+  for (const double distance : {1e3, 1e5, 1e7, 1e9}) {
+    EXPECT_NEAR(solid_angle(-1, -1, distance), 6 / sqr(distance), 1e-4 / sqr(distance) + 1e-15);
+    EXPECT_GE(solid_angle(5, 7, distance), 0.0);
+  }
+}
+
 // Large, small, slanted, and seen from close by.
 TEST(SphericalTriangle, SamplesAreUniform) {
   const Point3d all[][3] = {{{1, 0, 0}, {0, 2, 0}, {0, 0, 5}},

@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <numeric>
+#include <set>
 
 #include "expect_agreement.h"
 #include "formats/pbrt/reader.h"
@@ -115,32 +117,39 @@ TEST(Sppm, MemoryOfPhotonsIsBounded) {
   run_render(*bounded, nobody);
 }
 
-// Two radii, extrapolated to 0, are path tracing's image, of everything that path tracing can see too. `effort`: times
-// the samples.
-void expect_image_of_path(const std::string& scene, const char* direct, double visible, uint32_t effort,
-                          size_t scenes) {
+// Two radii, extrapolated to 0, are path tracing's image, of everything that path tracing can see too.
+struct Comparison {
+  double visible;       // share of the image that an error would have to be to be seen
+  size_t scenes;        // that are compared with the same level
+  uint32_t effort = 1;  // times the samples
+  // The parameter that sets the radius, and its two values.
+  std::string radius = "radiusscale";
+  std::array<const char*, 2> radii{"2.8", "1.4"};
+};
+
+void expect_image_of_path(const std::string& scene, const char* direct, const Comparison& c) {
   const auto films = [&](const TestRun& run) {
-    RenderOverrides o = overrides(512 * effort * run.more, 1 + run.fresh_seeds);
+    RenderOverrides o = overrides(512 * c.effort * run.more, 1 + run.fresh_seeds);
     o.integrator = "path";
     Film path = render_named(scene, o);
-    o = overrides(128 * effort * run.more, 2 + run.fresh_seeds);
+    o = overrides(128 * c.effort * run.more, 2 + run.fresh_seeds);
     o.set = {{"integrator.photonsperiteration", "4000"},
              {"integrator.paths", "from_camera"},
              {"integrator.directlight", direct},
-             {"integrator.radiusscale", "0.8"}};
+             {"integrator." + c.radius, c.radii[0]}};
     const Film wide = render_named(scene, o);
     o.seed = 3 + run.fresh_seeds;
-    o.set.back().second = "0.4";
+    o.set.back().second = c.radii[1];
     return std::pair(std::move(path), extrapolate_to_no_radius(wide, render_named(scene, o)));
   };
-  expect_agreement(scene, repeated_level(kFamilyLevel, scenes, film_test_count(16, 16)), films, visible);
+  expect_agreement(scene, repeated_level(kFamilyLevel, c.scenes, film_test_count(16, 16)), films, c.visible);
 }
 
 class StatisticalSppm : public testing::TestWithParam<const char*> {};
 
 TEST_P(StatisticalSppm, ConvergesToTheImageOfPathTracing) {
   const std::string scene = GetParam();
-  expect_image_of_path(scene, "photons", 0.03, scene == "photons/holes_and_mixtures" ? 2 : 1, 3);
+  expect_image_of_path(scene, "photons", {0.03, 3, scene == "photons/holes_and_mixtures" ? 2u : 1u});
 }
 
 // With all but diffuse closures passed, metals get direct light from light sampling and scattering together.
@@ -181,7 +190,7 @@ double slope_of_difference(const std::string& scene, const std::vector<float>& r
       RenderOverrides o = overrides(iterations, seed + 1000 * i);
       o.set = {{"integrator.components", "indirect"},
                {"integrator.photonsperiteration", "400"},
-               {"integrator.radiusscale", "0.3"}};
+               {"integrator.radiusscale", "1"}};
       squares += trimmed_square(render_named(scene, o), reference) / renders;
     }
     points.emplace_back(std::log(iterations), 0.5 * std::log(squares));
@@ -223,21 +232,32 @@ const auto kSlopeScenes = testing::Values("agree/conductor_box", "agree/glass_ca
 INSTANTIATE_TEST_SUITE_P(Scenes, StatisticalSppmSlope, kSlopeScenes);
 INSTANTIATE_TEST_SUITE_P(Scenes, SlowSppmSlope, kSlopeScenes);
 
-// All scenes that estimators are compared on, and all closed forms.
+// All scenes that estimators are compared on, and all closed forms but these.
+const std::set<std::string> kNotCompared{
+    "closed/bent_normals",  // a parameter that path alone has makes it what it is
+    // Steps of light lie between two of the blocks that are compared: their bias goes with the radius itself.
+    "closed/goniometric_light", "closed/projection_light",
+    // Next to no photon of the square comes to the point that is seen, among all those of the sky.
+    "closed/sky_and_square"};
+
 class SlowSppm : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> all_scenes() {
   std::vector<std::string> all;
   for (const std::string folder : {"agree", "closed", "photons"})
-    for (const auto& entry : std::filesystem::directory_iterator(source_path(kFolder + folder)))
-      if (entry.path().extension() == ".pbrt") all.push_back(folder + "/" + entry.path().stem().string());
+    for (const auto& entry : std::filesystem::directory_iterator(source_path(kFolder + folder))) {
+      const std::string name = folder + "/" + entry.path().stem().string();
+      if (entry.path().extension() == ".pbrt" && !kNotCompared.contains(name)) all.push_back(name);
+    }
   std::sort(all.begin(), all.end());
   return all;
 }
 
 TEST_P(SlowSppm, ConvergesToTheImageOfPathTracing) {
-  for (const char* direct : {"photons", "sampled"})
-    expect_image_of_path(GetParam(), direct, 0.05, 2, 2 * all_scenes().size());
+  Comparison c{0.08, 2 * all_scenes().size(), 2};
+  // Closed forms are about two metres large and lit evenly, and many are seen as if they were a point.
+  if (GetParam().starts_with("closed/")) c.radius = "radius", c.radii = {"0.2", "0.1"};
+  for (const char* direct : {"photons", "sampled"}) expect_image_of_path(GetParam(), direct, c);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SlowSppm, testing::ValuesIn(all_scenes()), [](const auto& scene) {

@@ -10,6 +10,14 @@ double root(double x) { return std::sqrt(x > 0.0 ? x : 0.0); }
 // The unit vector of w's part perpendicular to the unit vector v.
 Vec3d perpendicular(Vec3d w, Vec3d v) { return normalize(w - v * dot(w, v)); }
 
+// An angle as a unit complex number.
+struct Turn {
+  double cos, sin;
+  // Between 0 and pi.
+  static Turn of_cosine(double c) { return {c, root((1.0 - c) * (1.0 + c))}; }
+};
+Turn operator+(Turn a, Turn b) { return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin}; }
+
 }  // namespace
 
 SphericalTriangle::SphericalTriangle(Point3d p, const Point3d (&corners)[3])
@@ -50,21 +58,26 @@ SphericalRectangle::SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d
   distance_ = std::abs(dot(d, cross(ex, ey)));
   if (!(distance_ > 0.0)) return;
   // Normals of the four planes through p and an edge, of which only the component across the rectangle is needed; the
-  // inner angles between them sum up to the solid angle plus 2 pi.
+  // inner angles between them sum up to the solid angle plus 2 pi. Angles are added as unit complex numbers, with one
+  // arc tangent for all. The sum of two is at least 0 and at most 2 pi: the sign of its sine, even of 0, tells on which
+  // side of pi it is.
   const double z2 = distance_ * distance_;
   const double n0 = -y0_ / std::sqrt(z2 + y0_ * y0_), n1 = x1_ / std::sqrt(z2 + x1_ * x1_);
   const double n2 = y1_ / std::sqrt(z2 + y1_ * y1_), n3 = -x0_ / std::sqrt(z2 + x0_ * x0_);
-  const double g0 = std::acos(clamped(-n0 * n1, -1.0, 1.0)), g1 = std::acos(clamped(-n1 * n2, -1.0, 1.0));
-  const double g2 = std::acos(clamped(-n2 * n3, -1.0, 1.0)), g3 = std::acos(clamped(-n3 * n0, -1.0, 1.0));
-  b0_ = n0, b1_ = n2, k_ = 2.0 * kPiD - g2 - g3;
-  solid_angle_ = g0 + g1 - k_;
+  const Turn first = Turn::of_cosine(-n0 * n1) + Turn::of_cosine(-n1 * n2);
+  const Turn second = Turn::of_cosine(-n2 * n3) + Turn::of_cosine(-n3 * n0), sum = first + second;
+  b0_ = n0, b1_ = n2, cos_k_ = second.cos, sin_k_ = -second.sin;
+  solid_angle_ = std::atan2(sum.sin, sum.cos);
+  if (std::signbit(solid_angle_))
+    solid_angle_ = std::signbit(first.sin) && std::signbit(second.sin) ? solid_angle_ + 2.0 * kPiD : 0.0;
 }
 
 Vec2T<double> SphericalRectangle::sample(Vec2 u) const {
   // The sine of the angle between the cut through p that has the share u.x of the solid angle beside it and the plane's
   // normal, by Urena's equations with z0 = -distance.
-  const double au = static_cast<double>(u.x) * solid_angle_ + k_;
-  const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
+  const double share = static_cast<double>(u.x) * solid_angle_;
+  const Turn au = Turn{std::cos(share), std::sin(share)} + Turn{cos_k_, sin_k_};
+  const double fu = (au.cos * b0_ - b1_) / au.sin;
   double cu = std::copysign(1.0 / std::sqrt(fu * fu + b0_ * b0_), fu);
   cu = clamped(cu, -1.0, 1.0);
   double xu = cu * distance_ / root(1.0 - cu * cu);

@@ -39,10 +39,11 @@ class SphericalRectangle {
   Vec2T<double> sample(Vec2 u) const;
 
  private:
-  double width_, height_;           // of the rectangle
-  double x0_, y0_, x1_, y1_;        // its edges in the frame around p
-  double distance_;                 // of its plane from p
-  double b0_ = 0, b1_ = 0, k_ = 0;  // Urena's coefficients
+  double width_, height_;         // of the rectangle
+  double x0_, y0_, x1_, y1_;      // its edges in the frame around p
+  double distance_;               // of its plane from p
+  double b0_ = 0, b1_ = 0;        // Urena's coefficients
+  double cos_k_ = 1, sin_k_ = 0;  // of his angle k
   double solid_angle_ = 0;
 };
 

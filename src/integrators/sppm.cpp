@@ -9,6 +9,7 @@
 #include "integrators/light_path.h"
 #include "integrators/next_event.h"
 #include "integrators/path_record.h"
+#include "integrators/photon_radius.h"
 
 namespace etd {
 
@@ -30,8 +31,8 @@ const ModelDecl& SppmIntegrator::decl() {
          .default_value = 0.0,
          .min = 0,
          .unit = "m",
-         .doc =
-             "Radius of the first iteration; 0: about as wide as a pixel, or so wide that some ten photons are found."},
+         .doc = "Radius of the first iteration; 0: so wide that about four photons are found where many are seen, half "
+                "a pixel at least."},
         {.name = "radiusscale",
          .default_value = 1.0,
          .min = 0,
@@ -79,10 +80,11 @@ std::unique_ptr<Integrator> SppmIntegrator::create(const ParamReader& p, const S
 }
 
 std::vector<Variant> SppmIntegrator::variants(const Scene&, int) {
-  const ParameterTexts half{{"radiusscale", "0.5"}};
-  return {{.name = "sppm", .set = {{"paths", "from_camera"}}, .with_half_radius = half},
+  // Wide radii, of little noise: the extrapolation takes their bias away.
+  const ParameterTexts half{{"radiusscale", "1.25"}};
+  return {{.name = "sppm", .set = {{"paths", "from_camera"}, {"radiusscale", "2.5"}}, .with_half_radius = half},
           {.name = "sppm, photons alone",
-           .set = {{"paths", "from_camera"}, {"directlight", "photons"}},
+           .set = {{"paths", "from_camera"}, {"directlight", "photons"}, {"radiusscale", "2.5"}},
            .with_half_radius = half}};
 }
 
@@ -91,7 +93,9 @@ namespace {
 constexpr double kAlpha =
     2.0 / 3.0;  // at which bias and noise fall at the same rate (Knaus and Zwicker 2011, section 4)
 constexpr uint64_t kPhotonsPerItem = 4096;
-constexpr uint32_t kPilotPaths = 4096;
+// Paths of the pilot: as many as of an iteration, between these.
+constexpr uint64_t kFewestPilotPaths = 4096, kMostPilotPaths = 32768;
+constexpr uint32_t kPilotSide = 32;
 // Streams of photons, of the times of iterations, and of the paths that tell how many photons there will be: no pixel
 // has them.
 constexpr uint64_t kPhotonStream = uint64_t{1} << 62, kTimeStream = kPhotonStream - 1, kPilotStream = kTimeStream - 1;
@@ -112,9 +116,10 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmSettings& settings,
       emitters_(scene.lights, lights_, scene.emission_disks) {
   const uint64_t pixels = static_cast<uint64_t>(context.width) * static_cast<uint64_t>(context.height);
   if (settings_.photons == 0) settings_.photons = pixels;
+  pilot_paths_ = static_cast<uint32_t>(std::clamp(settings_.photons, kFewestPilotPaths, kMostPilotPaths));
   const std::vector<Point3> pilot = pilot_photons();
-  photons_of_path_ = static_cast<double>(pilot.size()) / kPilotPaths;
-  const double bytes_of_path = std::max(photons_of_path_, 1.0 / kPilotPaths) * PhotonGrid::kBytesOfPhoton;
+  photons_of_path_ = static_cast<double>(pilot.size()) / pilot_paths_;
+  const double bytes_of_path = std::max(photons_of_path_, 1.0 / pilot_paths_) * PhotonGrid::kBytesOfPhoton;
   const double most = std::max(1.0, static_cast<double>(settings_.photon_bytes) / bytes_of_path);
   if (static_cast<double>(settings_.photons) > most) settings_.photons = static_cast<uint64_t>(most);
   if (!(settings_.radius > 0)) settings_.radius = first_radius(pilot);
@@ -213,7 +218,7 @@ void SppmIntegrator::trace_path(Sampler& sampler, RayCounts& rays, F&& keep) con
 std::vector<Point3> SppmIntegrator::pilot_photons() const {
   std::vector<Point3> photons;
   RayCounts rays;
-  for (uint32_t k = 0; k < kPilotPaths; ++k) {
+  for (uint32_t k = 0; k < pilot_paths_; ++k) {
     Sampler sampler({}, 0);
     sampler.start(kPilotStream, 0, k);
     trace_path(sampler, rays, [&](const Photon& photon) { photons.push_back(photon.p); });
@@ -221,22 +226,49 @@ std::vector<Point3> SppmIntegrator::pilot_photons() const {
   return photons;
 }
 
-// The radius is one and a half pixels where most of what the camera sees is, or so large that ten photons are found
-// there if they spread evenly over a sphere, but no larger than a fifth of that sphere: beyond, bias would not go with
-// the square. The pilot tells how many come there; where few do, a larger sphere is taken.
+// The first place on a path through each of a grid of points of the film where photons are gathered.
+std::vector<SeenPoint> SppmIntegrator::pilot_points() const {
+  std::vector<SeenPoint> seen;
+  for (uint32_t k = 0; k < kPilotSide * kPilotSide; ++k) {
+    Sampler sampler({}, 0);
+    sampler.start(kPilotStream, 1, k);
+    HashStream rng(sampler.key(0));
+    const auto on_film = [](uint32_t i, int pixels) {
+      return (static_cast<float>(i) + 0.5f) / kPilotSide * static_cast<float>(pixels);
+    };
+    CameraSample at{
+        {on_film(k % kPilotSide, context_.width), on_film(k / kPilotSide, context_.height)}, {0.5f, 0.5f}, 0.5f};
+    Ray ray = scene_.camera.generate_ray(at);
+    const Ray first = ray;
+    at.film = {at.film.x + 1, at.film.y + 1};
+    const Ray next = scene_.camera.generate_ray(at);
+    double length = 0;
+    Hit hit;
+    for (int depth = 0; depth < settings_.max_depth && scene_.intersect(ray, hit); ++depth) {
+      length += static_cast<double>(hit.t);
+      const SurfaceHit surface = scene_.surface(hit);
+      const Shading shading = scene_.shade(surface, {ray.time}, rng);
+      const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
+      if (scatter.bsdf().has_smooth_lobe() && !is_near_delta(scatter.bsdf())) {
+        // As if the path were straight. The diagonal of a pixel is sqrt(2) wide.
+        const Vec3d apart = to_double(next.o - first.o) + length * to_double(next.d - first.d);
+        seen.push_back({surface.point.p,
+                        etd::length(apart - dot(apart, to_double(first.d)) * to_double(first.d)) / std::sqrt(2.0)});
+        break;
+      }
+      const auto s = scatter.sample(-ray.d, sampler.get_3d(), TransportMode::kRadiance, rng);
+      if (!s) break;
+      ray = spawn_ray(surface.point, s->wi, ray);
+    }
+  }
+  return seen;
+}
+
 double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
-  constexpr double kPhotonsWanted = 10, kPixelsWide = 1.5, kWidest = 0.2;
-  constexpr size_t kEnough = 64;
-  const BoundingSphere& seen = scene_.seen.radius > 0.0f ? scene_.seen : scene_.emission_disks.scene();
-  const double pixel = 2.0 * static_cast<double>(seen.radius) / std::sqrt(double(context_.width) * context_.height);
-  if (pilot.empty()) return kPixelsWide * pixel;
-  std::vector<double> distances;
-  for (const Point3& p : pilot) distances.push_back(length(to_double(p - seen.center)));
-  std::sort(distances.begin(), distances.end());
-  const double size = std::max<double>(seen.radius, distances[std::min(kEnough, distances.size()) - 1]);
-  const auto found = std::upper_bound(distances.begin(), distances.end(), size) - distances.begin();
-  const double photons = static_cast<double>(settings_.photons) * static_cast<double>(found) / kPilotPaths;
-  return std::max(kPixelsWide * pixel, size * std::min(kWidest, std::sqrt(4.0 * kPhotonsWanted / photons)));
+  const double more = static_cast<double>(settings_.photons) / pilot_paths_;
+  const double radius = first_photon_radius(pilot, pilot_points(), more);
+  // A camera that sees nothing gathers nothing.
+  return radius > 0 ? radius : static_cast<double>(scene_.emission_disks.scene().radius);
 }
 
 void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) {

@@ -5,6 +5,7 @@
 
 #include "integrators/light_path.h"
 #include "integrators/photon_grid.h"
+#include "integrators/photon_radius.h"
 #include "integrators/pixel_tiles.h"
 #include "integrators/transport_params.h"
 #include "integrators/variant.h"
@@ -55,6 +56,7 @@ class SppmIntegrator : public Integrator {
   void trace_path(Sampler& sampler, RayCounts& rays, F&& keep) const;
   // The photons of a few paths tell how many there will be, and how wide to search.
   std::vector<Point3> pilot_photons() const;
+  std::vector<SeenPoint> pilot_points() const;
   double first_radius(const std::vector<Point3>& pilot) const;
   void trace_photons(const Iteration& i, size_t item, Sink& sink);
   void gather_tile(const Iteration& i, size_t item, Sink& sink) const;
@@ -67,8 +69,9 @@ class SppmIntegrator : public Integrator {
   SppmSettings settings_;
   IntegratorContext context_;
   PixelTiles tiles_;
-  LightSampler lights_;         // for light sampling
-  EmissionSampler emitters_;    // for photons
+  LightSampler lights_;       // for light sampling
+  EmissionSampler emitters_;  // for photons
+  uint32_t pilot_paths_ = 0;
   double photons_of_path_ = 0;  // mean number that a path leaves
   uint64_t last_ = 0;           // the highest number of an iteration that has begun
   // Of the running iteration:
