@@ -13,8 +13,8 @@ Vec3d perpendicular(Vec3d w, Vec3d v) { return normalize(w - v * dot(w, v)); }
 // An angle as a unit complex number.
 struct Turn {
   double cos, sin;
-  // Between 0 and pi.
-  static Turn of_cosine(double c) { return {c, root((1.0 - c) * (1.0 + c))}; }
+  // Between 0 and pi, for a cosine between -1 and 1.
+  static Turn of_cosine(double c) { return {c, std::sqrt((1.0 - c) * (1.0 + c))}; }
 };
 Turn operator+(Turn a, Turn b) { return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin}; }
 
@@ -73,20 +73,18 @@ SphericalRectangle::SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d
 }
 
 Vec2T<double> SphericalRectangle::sample(Vec2 u) const {
-  // The sine of the angle between the cut through p that has the share u.x of the solid angle beside it and the plane's
-  // normal, by Urena's equations with z0 = -distance.
+  // Where the cut through p is that has the share u.x of the solid angle on one side, by Urena's equations with z0 =
+  // -distance.
   const double share = static_cast<double>(u.x) * solid_angle_;
   const Turn au = Turn{std::cos(share), std::sin(share)} + Turn{cos_k_, sin_k_};
   const double fu = (au.cos * b0_ - b1_) / au.sin;
-  double cu = std::copysign(1.0 / std::sqrt(fu * fu + b0_ * b0_), fu);
-  cu = clamped(cu, -1.0, 1.0);
-  double xu = cu * distance_ / root(1.0 - cu * cu);
-  xu = clamped(xu, x0_, x1_);
+  // His c_u d / sqrt(1 - c_u^2) with c_u = 1 / sqrt(f_u^2 + b_0^2).
+  const double xu = clamped(std::copysign(distance_ / root(fu * fu + b0_ * b0_ - 1.0), fu), x0_, x1_);
   // Along that cut the solid angle is even in the sine of the elevation.
-  const double d = std::sqrt(xu * xu + distance_ * distance_);
-  const double h0 = y0_ / std::sqrt(d * d + y0_ * y0_), h1 = y1_ / std::sqrt(d * d + y1_ * y1_);
+  const double d2 = xu * xu + distance_ * distance_;
+  const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_), h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
   const double h = h0 + static_cast<double>(u.y) * (h1 - h0), h2 = h * h;
-  const double yv = h2 < 1.0 - 1e-12 ? clamped(h * d / std::sqrt(1.0 - h2), y0_, y1_) : y1_;
+  const double yv = h2 < 1.0 - 1e-12 ? clamped(h * std::sqrt(d2 / (1.0 - h2)), y0_, y1_) : y1_;
   return {clamped((xu - x0_) / width_, 0.0, 1.0), clamped((yv - y0_) / height_, 0.0, 1.0)};
 }
 

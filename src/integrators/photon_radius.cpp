@@ -12,8 +12,8 @@ constexpr size_t kNeighbours = 8;
 // Measured on four scenes (docs/performance.md): caustics would like a quarter, rooms four times as many.
 constexpr double kPhotonsWanted = 4, kPixelWidths = 0.5, kWidest = 0.7;
 
-// The square of the distance to the k-th nearest photon, or to the last if there are fewer: k / (pi d^2) photons lie on a
-// unit of area.
+// The square of the distance to the k-th nearest photon, or to the last if there are fewer: k / (pi d^2) photons lie on
+// a unit of area.
 double square_of_distance(Point3 p, const std::vector<Point3>& photons) {
   std::array<double, kNeighbours> nearest;  // a heap, the largest first
   size_t count = 0;
