@@ -22,18 +22,19 @@ TEST_F(CliStreams, MessagesThatCannotBeWrittenCostNoPicture) {
   folder_.write("log", std::string(100000, '.'));
   for (const std::string streams :
        {"2>/dev/full", "2>&-", ">/dev/full", ">&-", ">&- 2>&-", "<&- >&- 2>&-", ">/dev/full 2>/dev/full"}) {
-    const Finished done =
-        run_shell("exec \"$ETENDUE\" render s.pbrt -o a.exr --stats a.json --preview b.exr --spp 3 " + streams);
+    const Finished done = run_shell(
+        "exec \"$ETENDUE\" render s.pbrt -o a.exr --stats a.json --preview b.exr --spp 3 --replicates 2 " + streams);
     EXPECT_EQ(done.exit_code, 0) << streams << done.err;
     expect_picture("a.exr", streams);
     EXPECT_TRUE(has(text(folder_.path() / "a.json"), "\"spp\": 4")) << streams;
     for (const char* name : {"a.exr", "a.json", "b.exr"}) std::filesystem::remove(folder_.path() / name);
   }
   // A reader that goes, and a log that may not grow.
-  run_shell("{ \"$ETENDUE\" render s.pbrt -o a.exr --spp 3; echo $? >code; } 2>&1 | head -c 1");
+  run_shell("{ \"$ETENDUE\" render s.pbrt -o a.exr --spp 3 --replicates 2; echo $? >code; } 2>&1 | head -c 1");
   EXPECT_EQ(text(folder_.path() / "code"), "0\n");
   expect_picture("a.exr", "head");
-  EXPECT_EQ(run_shell("ulimit -f 100; exec \"$ETENDUE\" render s.pbrt -o b.exr --spp 3 2>>log").exit_code, 0);
+  EXPECT_EQ(
+      run_shell("ulimit -f 100; exec \"$ETENDUE\" render s.pbrt -o b.exr --spp 3 --replicates 2 2>>log").exit_code, 0);
   expect_picture("b.exr", "ulimit -f");
   EXPECT_EQ(text(folder_.path() / "log").find_first_not_of('.'), std::string::npos);
 }

@@ -55,7 +55,8 @@ TEST_F(Cli, WrongArgumentsExitWithTwo) {
 
 TEST_F(Cli, RendersAllLayersAndAPicture) {
   folder_.write("s.pbrt", kScene);
-  const Finished done = run("render s.pbrt -o a.exr -o a.png --stats a.json --spp 5 --seed 3 --threads 2");
+  const Finished done =
+      run("render s.pbrt -o a.exr -o a.png --stats a.json --spp 5 --replicates 2 --seed 3 --threads 2");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   for (const char* part : {"a.exr\n", "a.png\n", "a.json\n", "24x16, 6 spp, "})
     EXPECT_TRUE(has(done.out, part)) << part;

@@ -106,7 +106,7 @@ void expect_replays(const std::string& file, const RenderOverrides& overrides) {
 RenderOverrides small(const std::string& mode) {
   RenderOverrides o;
   o.size = {14, 10};
-  o.spp = 6;
+  o.spp = 6, o.replicates = 2;
   o.seed = 9;
   o.threads = 2;
   o.set = {{"integrator.mode", mode}};
@@ -206,7 +206,7 @@ Shape "sphere"
 TEST(Replay, NamesWhatThePathMeets) {
   Diagnostics diagnostics;
   RenderOverrides o;
-  o.spp = 64;
+  o.spp = 64, o.replicates = 2;
   const auto prepared = prepare_render(read_pbrt_text(kScene, "ball.pbrt", ".", diagnostics), o, diagnostics);
   ASSERT_TRUE(prepared) << diagnostics.format_all();
   const ReplayedScene in{*prepared->compiled.scene, prepared->compiled.info->names, diagnostics.sources(),

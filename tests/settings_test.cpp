@@ -57,7 +57,7 @@ TEST(Settings, DefaultsOfTheFormat) {
   EXPECT_EQ(s.film.height, 720);
   EXPECT_EQ(s.film.crop, (PixelBounds{0, 0, 1280, 720}));
   EXPECT_EQ(s.spp, 16u);
-  EXPECT_EQ(s.film.replicates, 2u);
+  EXPECT_EQ(s.film.replicates, 1u);
   EXPECT_EQ(s.seed, 0u);
   EXPECT_EQ(s.sampler.name(), "sobol");
   EXPECT_EQ(s.integrator.model, "path");
@@ -78,6 +78,8 @@ TEST(Settings, TheSceneIsObeyed) {
 TEST(Settings, SamplesAreRoundedUpToReplicates) {
   RenderOverrides o;
   o.spp = 5;
+  EXPECT_EQ(good(scene_of(8, 8), o).spp, 5u);
+  o.replicates = 2;
   EXPECT_EQ(good(scene_of(8, 8), o).spp, 6u);
   o.replicates = 4;
   EXPECT_EQ(good(scene_of(8, 8), o).spp, 8u);

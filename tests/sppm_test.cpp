@@ -256,7 +256,7 @@ std::vector<std::string> all_scenes() {
 TEST_P(SlowSppm, ConvergesToTheImageOfPathTracing) {
   Comparison c{0.08, 2 * all_scenes().size(), 2};
   // Closed forms are about two metres large and lit evenly. Many are seen as if they were a point, so that all pixels
-  // gather the same few photons: in two of them errors below a half would not be seen, in ten below a tenth.
+  // gather the same few photons: in four of them errors below a half would not be seen.
   if (GetParam().starts_with("closed/")) c.radius = "radius", c.radii = {"0.2", "0.1"}, c.visible = 0.7;
   for (const char* direct : {"photons", "sampled"}) expect_image_of_path(GetParam(), direct, c);
 }

@@ -92,7 +92,7 @@ void add_override_options(CLI::App& command, const std::shared_ptr<SceneArgument
   add_crop_option(command, o.crop, "render only these pixels: x0 <= x < x1, y0 <= y < y1");
   add_value(command, "--spp", o.spp, "samples per pixel, rounded up to a multiple of the replicates", "N");
   add_value(command, "--replicates", o.replicates,
-            "independent estimates that the samples are divided into (2); from 4 on their spread gives the error", "R");
+            "independent estimates that the samples are divided into (1); from 4 on their spread gives the error", "R");
   add_value(command, "--seed", o.seed, "another seed gives another estimate; the same one gives the same bits", "N");
   add_value(command, "--sampler", o.sampler, sampler_names() + "; other names as scenes take them", "NAME");
   add_value(command, "--integrator", o.integrator,

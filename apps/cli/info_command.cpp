@@ -40,8 +40,8 @@ void print_info(const PreparedRender& prepared) {
   const SceneSummary& summary = prepared.compiled.info->summary;
   const RenderSettings& s = prepared.settings;
   const auto row = [](const char* name, const std::string& text) { answer("{:<12}{}\n", name, text); };
-  row("image", fmt::format("{}x{}, {} spp, {} replicates, {}", s.film.width, s.film.height, s.spp,
-                           s.film.all_replicates(), s.integrator.model));
+  row("image", fmt::format("{}x{}, {} spp, {} replicate{}, {}", s.film.width, s.film.height, s.spp,
+                           s.film.all_replicates(), s.film.all_replicates() == 1 ? "" : "s", s.integrator.model));
   row("shapes", counts_text(summary.shapes));
   row("triangles", summary.instanced_triangles == summary.triangles
                        ? fmt::format("{}", summary.triangles)

@@ -122,7 +122,11 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmSettings& settings,
   const double bytes_of_path = std::max(photons_of_path_, 1.0 / pilot_paths_) * PhotonGrid::kBytesOfPhoton;
   const double most = std::max(1.0, static_cast<double>(settings_.photon_bytes) / bytes_of_path);
   if (static_cast<double>(settings_.photons) > most) settings_.photons = static_cast<uint64_t>(most);
-  if (!(settings_.radius > 0)) settings_.radius = first_radius(pilot);
+  if (!(settings_.radius > 0))
+    settings_.radius =
+        first_photon_radius(pilot, pilot_points(), static_cast<double>(settings_.photons) / pilot_paths_);
+  // A camera that sees nothing gathers nothing.
+  if (!(settings_.radius > 0)) settings_.radius = static_cast<double>(scene.emission_disks.scene().radius);
   settings_.radius *= settings_.radius_scale;
 }
 
@@ -262,13 +266,6 @@ std::vector<SeenPoint> SppmIntegrator::pilot_points() const {
     }
   }
   return seen;
-}
-
-double SppmIntegrator::first_radius(const std::vector<Point3>& pilot) const {
-  const double more = static_cast<double>(settings_.photons) / pilot_paths_;
-  const double radius = first_photon_radius(pilot, pilot_points(), more);
-  // A camera that sees nothing gathers nothing.
-  return radius > 0 ? radius : static_cast<double>(scene_.emission_disks.scene().radius);
 }
 
 void SppmIntegrator::trace_photons(const Iteration& i, size_t item, Sink& sink) {

@@ -57,7 +57,6 @@ class SppmIntegrator : public Integrator {
   // The photons of a few paths tell how many there will be, and how wide to search.
   std::vector<Point3> pilot_photons() const;
   std::vector<SeenPoint> pilot_points() const;
-  double first_radius(const std::vector<Point3>& pilot) const;
   void trace_photons(const Iteration& i, size_t item, Sink& sink);
   void gather_tile(const Iteration& i, size_t item, Sink& sink) const;
   PixelSample gather(int x, int y, Sampler& sampler) const;

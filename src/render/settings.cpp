@@ -123,7 +123,7 @@ void apply_traits(const RenderOverrides& overrides, RenderSettings& settings, Di
   film.splats = traits.splats;
   film.correlated = traits.correlated_pixels;
   uint32_t& replicates = film.of_replicates;
-  replicates = overrides.replicates.value_or(traits.correlated_pixels ? kCorrelatedReplicates : 2);
+  replicates = overrides.replicates.value_or(traits.correlated_pixels ? kCorrelatedReplicates : 1);
   if (traits.correlated_pixels && replicates < kReplicatesForSpread) {
     diagnostics.error({}, fmt::format("integrator \"{}\" needs at least {} replicates: no sample of it belongs to one "
                                       "pixel alone, so only their spread tells the error",
