@@ -174,8 +174,8 @@ constexpr std::array<std::string_view, 4> kMachinePaths = {
     "/Us"
     "ers/"};
 
-// The first path of somebody's machine in `text`, empty when there is none. A path that goes on from a name, as in
-// docs/work/, is not one.
+// The first path of somebody's machine in `text`, empty when there is none. What goes on from the name of another
+// folder is not one.
 std::string machine_path_in(std::string_view text) {
   for (const std::string_view path : kMachinePaths) {
     for (size_t at = text.find(path); at != std::string_view::npos; at = text.find(path, at + 1)) {

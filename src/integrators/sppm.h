@@ -68,9 +68,9 @@ class SppmIntegrator : public Integrator {
   SppmSettings settings_;
   IntegratorContext context_;
   PixelTiles tiles_;
-  LightSampler lights_;       // for light sampling
-  EmissionSampler emitters_;  // for photons
-  uint32_t pilot_paths_ = 0;
+  LightSampler lights_;         // for light sampling
+  EmissionSampler emitters_;    // for photons
+  uint32_t pilot_paths_ = 0;    // from lights, that were followed to know what comes
   double photons_of_path_ = 0;  // mean number that a path leaves
   uint64_t last_ = 0;           // the highest number of an iteration that has begun
   // Of the running iteration:

@@ -24,19 +24,26 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-// "`a`, `b`", with line breaks so that a line that begins with `indent` letters stays within 120.
+// The text with line breaks so that a line that begins with `column` letters stays within 120.
+std::string wrapped(std::string_view text, size_t column = 0) {
+  constexpr size_t kWidth = 119;
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const bool breaks = column + 1 + word.size() > kWidth;
+    if (!out.empty()) out += breaks ? '\n' : ' ';
+    column = (breaks ? 0 : column + 1) + word.size();
+    out += word;
+  }
+  return out;
+}
+
+// "`a`, `b`", wrapped.
 std::string list_of_names(std::span<const std::string_view> names, size_t indent = 0) {
   std::string text;
-  size_t column = indent;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string name = fmt::format("`{}`{}", names[i], i + 1 < names.size() ? "," : "");
-    constexpr size_t kWidth = 119;
-    const bool breaks = column + 1 + name.size() > kWidth;
-    if (i > 0) text += breaks ? '\n' : ' ';
-    column = (breaks ? 0 : column + 1) + name.size();
-    text += name;
-  }
-  return text;
+  for (const std::string_view name : names) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name);
+  return wrapped(text, indent);
 }
 
 std::string capitalised(std::string_view text) {
@@ -54,7 +61,8 @@ std::string directives_chapter() {
 }
 
 std::string model_section(const ModelDecl& model) {
-  std::string out = fmt::format("\n### {} `{}`\n\n{}\n", capitalised(family_name(model.family)), model.name, model.doc);
+  std::string out =
+      fmt::format("\n### {} `{}`\n\n{}\n", capitalised(family_name(model.family)), model.name, wrapped(model.doc));
   if (model.params.empty()) return out + "\nIt takes no parameters.\n";
   out += "\n| parameter | type | default | valid | unit | meaning |\n|---|---|---|---|---|---|\n";
   for (const ParamDecl& p : model.params)
