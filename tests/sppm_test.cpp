@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -240,6 +241,28 @@ const std::set<std::string> kNotCompared{
     // Next to no photon of the square comes to the point that is seen, among all those of the sky.
     "closed/sky_and_square"};
 
+// Scenes that are seen as if they were a point, or through rough glass, so that all pixels gather the same few photons,
+// with the share of the image that an error would have to be to be seen; in all others 8 % are enough.
+const std::map<std::string, double> kNoisy{{"closed/alpha_light", 0.7},
+                                           {"closed/alpha_veil", 0.35},
+                                           {"closed/cap_light", 0.35},
+                                           {"closed/cylinder_light", 0.35},
+                                           {"closed/furnace_rough_glass", 0.7},
+                                           {"closed/invisible_light", 0.35},
+                                           {"closed/motion_disk_light", 0.35},
+                                           {"closed/motion_growing_light", 0.7},
+                                           {"closed/motion_point_light", 0.35},
+                                           {"closed/motion_sphere_light", 0.7},
+                                           {"closed/motion_stretching_light", 0.35},
+                                           {"closed/patch_light", 0.35},
+                                           {"closed/portal", 0.35},
+                                           {"closed/ring_light", 0.35},
+                                           {"closed/sphere_light", 0.7},
+                                           {"closed/sphere_light_scaled", 0.8},
+                                           {"closed/square_light", 0.35},
+                                           {"closed/square_light_two_sided", 0.35},
+                                           {"closed/tilted_normals", 0.35}};
+
 class SlowSppm : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> all_scenes() {
@@ -254,10 +277,10 @@ std::vector<std::string> all_scenes() {
 }
 
 TEST_P(SlowSppm, ConvergesToTheImageOfPathTracing) {
-  Comparison c{0.08, 2 * all_scenes().size(), 2};
-  // Closed forms are about two metres large and lit evenly. Many are seen as if they were a point, so that all pixels
-  // gather the same few photons: in four of them errors below a half would not be seen.
-  if (GetParam().starts_with("closed/")) c.radius = "radius", c.radii = {"0.2", "0.1"}, c.visible = 0.7;
+  const auto noisy = kNoisy.find(GetParam());
+  Comparison c{noisy == kNoisy.end() ? 0.08 : noisy->second, 2 * all_scenes().size(), 2};
+  // Closed forms are about two metres large and lit evenly.
+  if (GetParam().starts_with("closed/")) c.radius = "radius", c.radii = {"0.2", "0.1"};
   for (const char* direct : {"photons", "sampled"}) expect_image_of_path(GetParam(), direct, c);
 }
 
