@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -122,8 +123,22 @@ PendingFile::PendingFile(const fs::path& final_path) : final_path_(follow_links(
                        std::strerror(errno));
 }
 
-// False with errno, EEXIST when another process has the name.
+// False with errno, EEXIST when another process has the name. The slot is taken first: a signal may end the process as
+// soon as the file exists.
 bool PendingFile::create(const fs::path& candidate) {
+  if (::access(candidate.c_str(), F_OK) == 0) return errno = EEXIST, false;
+  slot_ = take_slot(candidate.string());
+  if (open(candidate)) {
+    path_ = candidate;
+    return true;
+  }
+  const int why = errno;
+  give_slot_back(std::exchange(slot_, -1));
+  return errno = why, false;
+}
+
+// Creates and locks the file. False with errno.
+bool PendingFile::open(const fs::path& candidate) {
   const int descriptor = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) return false;
   // Before it was locked, another process may have taken it for abandoned. Some file systems have no locks: there
@@ -135,15 +150,11 @@ bool PendingFile::create(const fs::path& candidate) {
     return errno = EEXIST, false;
   }
   file_ = ::fdopen(descriptor, "wb");
-  if (!file_) {
-    const int why = errno;
-    ::close(descriptor);
-    ::unlink(candidate.c_str());
-    return errno = why, false;
-  }
-  path_ = candidate;
-  slot_ = take_slot(path_.string());
-  return true;
+  if (file_) return true;
+  const int why = errno;
+  ::close(descriptor);
+  ::unlink(candidate.c_str());
+  return errno = why, false;
 }
 
 PendingFile::~PendingFile() {

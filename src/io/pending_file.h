@@ -32,6 +32,7 @@ class PendingFile {
 
  private:
   bool create(const std::filesystem::path& candidate);
+  bool open(const std::filesystem::path& candidate);
   void fail(int error_number);
 
   std::filesystem::path final_path_, path_;
