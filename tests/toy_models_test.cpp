@@ -280,19 +280,19 @@ TEST(ToyModels, LightSampler) {
   EXPECT_EQ(choice(&receiver).probability, 1.0f);
 }
 
-// Its numbers are half of the sample's.
+// Its digits are half of the sample's index, and the dimension.
 struct ToySampler {
   static constexpr SamplerTraits kTraits{};
   static const ModelDecl& decl() { return toy_decl(Family::kSampler); }
-  static float get_1d(const SampleNumber& n) { return static_cast<float>(n.index) / 2; }
-  static Vec2 get_2d(const SampleNumber& n) { return {get_1d(n), static_cast<float>(n.dimension)}; }
-  static uint64_t get_bits(const SampleNumber& n) { return n.index; }
+  static Digits digits(const SampleNumber& n) { return {n.index / 2, n.dimension}; }
 };
 
 TEST(ToyModels, Sampler) {
   const auto toy = made<Samplers, ToySampler>([](const ParamReader&) { return ToySampler(); });
   const SampleNumber number{1, 6, 2};
-  EXPECT_EQ((dispatched<Vec2, Samplers>(toy, [&](const auto& s) { return s.get_2d(number); })), (Vec2{3, 2}));
+  const auto digits = dispatched<Digits, Samplers>(toy, [&](const auto& s) { return s.digits(number); });
+  EXPECT_EQ(digits.x, 3u);
+  EXPECT_EQ(digits.y, 2u);
   EXPECT_FALSE((dispatched<SamplerTraits, Samplers>(toy, [](const auto& s) { return s.kTraits; }).stratified));
 }
 

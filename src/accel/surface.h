@@ -8,7 +8,8 @@
 
 namespace etd {
 
-// The surface at a hit, in the (recentred) world, as it is at the time of the hit.
-SurfacePoint surface_point(const Geometry& geometry, const Hit& hit);
+// The surface at a hit, in the (recentred) world, as it is at the time of the hit. `tangents`: whether those of texture
+// coordinates matter (shapes/triangle.h).
+SurfacePoint surface_point(const Geometry& geometry, const Hit& hit, bool tangents = true);
 
 }  // namespace etd

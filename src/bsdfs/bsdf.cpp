@@ -17,6 +17,22 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 wo, Vec3 u, TransportMode mode, Hash
       storage_, [&](const auto& c) { return c.sample(wo, u, mode, rng, sides); });
 }
 
+BsdfValue Bsdf::eval_pdf(Vec3 wo, Vec3 wi, HashStream& rng) const {
+  return dispatch<BsdfValue, Closures>(storage_, [&](const auto& c) {
+    return BsdfValue{c.eval_cos(wo, wi, TransportMode::kRadiance, rng),
+                     c.pdf(wo, wi, TransportMode::kRadiance, kBothSides)};
+  });
+}
+
+bool Bsdf::is_isotropic() const {
+  return dispatch<bool, Closures>(storage_, [](const auto& c) {
+    if constexpr (requires { c.is_isotropic(); })
+      return c.is_isotropic();
+    else
+      return false;
+  });
+}
+
 float Bsdf::widest_alpha() const {
   return dispatch<float, Closures>(storage_, [](const auto& c) { return c.widest_alpha(); });
 }

@@ -49,9 +49,14 @@ struct BsdfSample {
   bool is_transmission() const { return (lobe & kTransmission) != 0; }
 };
 
+struct BsdfValue {
+  Spectrum f_cos;
+  float pdf = 0;
+};
+
 class Bsdf {
  public:
-  Bsdf() = default;
+  Bsdf() {}  // leaves its bytes as they are
   // Holds a closure of a type in the list (bsdfs/bsdf_list.h).
   template <class T>
   explicit Bsdf(const T& closure);
@@ -60,6 +65,8 @@ class Bsdf {
   Spectrum eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const;
   // Solid-angle density with which sample() makes wi among the allowed sides; delta lobes are 0.
   float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides = kBothSides) const;
+  // Both at once, for radiance and all sides.
+  BsdfValue eval_pdf(Vec3 wo, Vec3 wi, HashStream& rng) const;
   // u.x, u.y place the direction, u.z chooses among lobes. Nothing when the sample fails (below the surface, absorbed,
   // or no lobe on the allowed sides): that is an estimate of 0.
   std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides = kBothSides) const;
@@ -68,6 +75,8 @@ class Bsdf {
   // How wide the widest lobe is that is no delta: 1 where one is diffuse, of a microfacet lobe the greater alpha, and 0
   // where all are deltas.
   float widest_alpha() const;
+  // Whether it looks the same when it turns about the normal, so that any tangent serves.
+  bool is_isotropic() const;
   // Hemispherical-directional reflectance towards wo, or an estimate of it where none is closed: the albedo feature.
   Spectrum albedo(Vec3 wo) const;
 

@@ -20,6 +20,7 @@ struct SmoothConductor {
   }
   Lobe lobes() const { return kReflection | kDelta; }
   float widest_alpha() const { return 0.0f; }
+  bool is_isotropic() const { return true; }
   Spectrum albedo(Vec3 wo) const { return fresnel_conductor(std::min(std::abs(wo.z), 1.0f), eta, k); }
 };
 
@@ -60,6 +61,7 @@ struct RoughConductor {
 
   Lobe lobes() const { return kReflection | kGlossy; }
   float widest_alpha() const { return std::max(ggx.ax, ggx.ay); }
+  bool is_isotropic() const { return ggx.ax == ggx.ay; }
   // This is the albedo of the flat surface: exact as alpha goes to 0; above that it leaves out what is lost between
   // facets and that they are tilted. No closed form is known, and as a feature the metal's colour is what matters.
   Spectrum albedo(Vec3 wo) const { return fresnel_conductor(std::min(std::abs(wo.z), 1.0f), eta, k); }

@@ -34,6 +34,7 @@ struct SmoothDielectric {
 
   Lobe lobes() const { return eta == 1.0f ? kTransmission | kDelta : kBothSides | kDelta; }
   float widest_alpha() const { return 0.0f; }
+  bool is_isotropic() const { return true; }
   Spectrum albedo(Vec3) const { return Spectrum(1.0f); }
 };
 

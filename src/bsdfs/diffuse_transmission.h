@@ -37,6 +37,7 @@ struct DiffuseTransmission {
     return sides == kNoLobe ? kNoLobe : sides | kDiffuse;
   }
   float widest_alpha() const { return 1.0f; }
+  bool is_isotropic() const { return true; }
   Spectrum albedo(Vec3) const { return reflectance + transmittance; }
 
  private:

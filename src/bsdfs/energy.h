@@ -65,6 +65,7 @@ struct EnergyCompensated {
   }
   Lobe lobes() const { return rough.lobes(); }
   float widest_alpha() const { return rough.widest_alpha(); }
+  bool is_isotropic() const { return rough.is_isotropic(); }
   Spectrum albedo(Vec3 wo) const { return rough.albedo(wo); }
 
  private:

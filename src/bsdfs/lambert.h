@@ -26,6 +26,7 @@ struct Lambert {
   }
   Lobe lobes() const { return is_black(reflectance) ? kNoLobe : kReflection | kDiffuse; }
   float widest_alpha() const { return 1.0f; }
+  bool is_isotropic() const { return true; }
   Spectrum albedo(Vec3) const { return reflectance; }
 };
 

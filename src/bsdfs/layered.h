@@ -93,6 +93,7 @@ struct Layered {
     if (!kDeltaOnly && smooth_lobe() == kGlossy) return std::max(top.widest_alpha(), bottom.widest_alpha());
     return (lobes() & (kDiffuse | kGlossy)) != 0 ? 1.0f : 0.0f;
   }
+  bool is_isotropic() const { return top.is_isotropic() && bottom.is_isotropic(); }
   // Coat over base without what happens between them: for features.
   Spectrum albedo(Vec3 wo) const {
     const float coat = fresnel_dielectric(std::min(std::abs(wo.z), 1.0f), top.eta).reflectance;

@@ -56,6 +56,7 @@ struct RoughDielectric {
 
   Lobe lobes() const { return kBothSides | kGlossy; }
   float widest_alpha() const { return std::max(ggx.ax, ggx.ay); }
+  bool is_isotropic() const { return ggx.ax == ggx.ay; }
   Spectrum albedo(Vec3) const { return Spectrum(1.0f); }
 
  private:

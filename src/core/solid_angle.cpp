@@ -10,11 +10,9 @@ double root(double x) { return std::sqrt(x > 0.0 ? x : 0.0); }
 // The unit vector of w's part perpendicular to the unit vector v.
 Vec3d perpendicular(Vec3d w, Vec3d v) { return normalize(w - v * dot(w, v)); }
 
-// An angle as a unit complex number.
+// An angle as a complex number of any length.
 struct Turn {
   double cos, sin;
-  // Between 0 and pi, for a cosine between -1 and 1.
-  static Turn of_cosine(double c) { return {c, std::sqrt((1.0 - c) * (1.0 + c))}; }
 };
 Turn operator+(Turn a, Turn b) { return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin}; }
 
@@ -50,23 +48,28 @@ Vec3d SphericalTriangle::sample(Vec2 u) const {
   return l > 0.0 ? normalize(b_ * z + across * (root(1.0 - z * z) / l)) : b_;
 }
 
-SphericalRectangle::SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d y)
-    : width_(length(x)), height_(length(y)) {
-  const Vec3d ex = x * (1.0 / width_), ey = y * (1.0 / height_), d = corner - p;
-  x0_ = dot(d, ex), y0_ = dot(d, ey);
+RectangleFrame::RectangleFrame(Point3d at, Vec3d along_x, Vec3d along_y)
+    : corner(at), width(length(along_x)), height(length(along_y)) {
+  x = along_x * (1.0 / width), y = along_y * (1.0 / height), n = cross(x, y);
+}
+
+SphericalRectangle::SphericalRectangle(Point3d p, const RectangleFrame& r) : width_(r.width), height_(r.height) {
+  const Vec3d d = r.corner - p;
+  x0_ = dot(d, r.x), y0_ = dot(d, r.y);
   x1_ = x0_ + width_, y1_ = y0_ + height_;
-  distance_ = std::abs(dot(d, cross(ex, ey)));
+  distance_ = std::abs(dot(d, r.n));
   if (!(distance_ > 0.0)) return;
-  // Normals of the four planes through p and an edge, of which only the component across the rectangle is needed; the
-  // inner angles between them sum up to the solid angle plus 2 pi. Angles are added as unit complex numbers, with one
-  // arc tangent for all. The sum of two is at least 0 and at most 2 pi: the sign of its sine, even of 0, tells on which
-  // side of pi it is.
-  const double z2 = distance_ * distance_;
-  const double n0 = -y0_ / std::sqrt(z2 + y0_ * y0_), n1 = x1_ / std::sqrt(z2 + x1_ * x1_);
-  const double n2 = y1_ / std::sqrt(z2 + y1_ * y1_), n3 = -x0_ / std::sqrt(z2 + x0_ * x0_);
-  const Turn first = Turn::of_cosine(-n0 * n1) + Turn::of_cosine(-n1 * n2);
-  const Turn second = Turn::of_cosine(-n2 * n3) + Turn::of_cosine(-n3 * n0), sum = first + second;
-  b0_ = n0, b1_ = n2, cos_k_ = second.cos, sin_k_ = -second.sin;
+  // The inner angles, whose sum is the solid angle plus 2 pi, are those between the planes through p and two
+  // neighbouring edges. With the distance l of their corner (x, y, z), the plane through p and the edge along x has the
+  // normal (0, z, -y), and so on: the cosine and the sine of the angle are as x y to z l. Angles are added as complex
+  // numbers of any length, with one arc tangent for all. The sum of two is at least 0 and at most 2 pi: the sign of its
+  // sine, even of 0, tells on which side of pi it is.
+  const double z = distance_, z2 = z * z;
+  const auto inner = [z](double xy, double l2) { return Turn{xy, z * std::sqrt(l2)}; };
+  const double x02 = x0_ * x0_, x12 = x1_ * x1_, y02 = z2 + y0_ * y0_, y12 = z2 + y1_ * y1_;
+  const Turn first = inner(x1_ * y0_, x12 + y02) + inner(-x1_ * y1_, x12 + y12);
+  const Turn second = inner(x0_ * y1_, x02 + y12) + inner(-x0_ * y0_, x02 + y02), sum = first + second;
+  cos_k_ = second.cos, sin_k_ = -second.sin;
   solid_angle_ = std::atan2(sum.sin, sum.cos);
   if (std::signbit(solid_angle_))
     solid_angle_ = std::signbit(first.sin) && std::signbit(second.sin) ? solid_angle_ + 2.0 * kPiD : 0.0;
@@ -77,11 +80,12 @@ Vec2T<double> SphericalRectangle::sample(Vec2 u) const {
   // -distance.
   const double share = static_cast<double>(u.x) * solid_angle_;
   const Turn au = Turn{std::cos(share), std::sin(share)} + Turn{cos_k_, sin_k_};
-  const double fu = (au.cos * b0_ - b1_) / au.sin;
+  const double z2 = distance_ * distance_, b0 = -y0_ / std::sqrt(z2 + y0_ * y0_), b1 = y1_ / std::sqrt(z2 + y1_ * y1_);
+  const double fu = (au.cos * b0 - b1 * std::sqrt(cos_k_ * cos_k_ + sin_k_ * sin_k_)) / au.sin;
   // His c_u d / sqrt(1 - c_u^2) with c_u = 1 / sqrt(f_u^2 + b_0^2).
-  const double xu = clamped(std::copysign(distance_ / root(fu * fu + b0_ * b0_ - 1.0), fu), x0_, x1_);
+  const double xu = clamped(std::copysign(distance_ / root(fu * fu + b0 * b0 - 1.0), fu), x0_, x1_);
   // Along that cut the solid angle is even in the sine of the elevation.
-  const double d2 = xu * xu + distance_ * distance_;
+  const double d2 = xu * xu + z2;
   const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_), h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
   const double h = h0 + static_cast<double>(u.y) * (h1 - h0), h2 = h * h;
   const double yv = h2 < 1.0 - 1e-12 ? clamped(h * std::sqrt(d2 / (1.0 - h2)), y0_, y1_) : y1_;

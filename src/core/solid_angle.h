@@ -25,13 +25,22 @@ class SphericalTriangle {
   double solid_angle_ = 0;
 };
 
+// A rectangle from `corner` along the perpendicular unit vectors x and y.
+struct RectangleFrame {
+  Point3d corner;
+  Vec3d x, y, n;
+  double width = 0, height = 0;
+
+  // `along_x` and `along_y` are its edges.
+  RectangleFrame(Point3d at, Vec3d along_x, Vec3d along_y);
+};
+
 // A rectangle the same way (Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical
 // Rectangles").
 class SphericalRectangle {
  public:
-  // Makes the rectangle from `corner` along the perpendicular edges x and y, as seen from p; its solid angle is 0 when
-  // p is in its plane.
-  SphericalRectangle(Point3d p, Point3d corner, Vec3d x, Vec3d y);
+  // Makes the rectangle as seen from p; its solid angle is 0 when p is in its plane.
+  SphericalRectangle(Point3d p, const RectangleFrame& rectangle);
 
   double solid_angle() const { return solid_angle_; }
   // Returns where the sampled direction meets the rectangle, as shares of its edges in [0, 1]; only when the solid
@@ -42,8 +51,7 @@ class SphericalRectangle {
   double width_, height_;         // of the rectangle
   double x0_, y0_, x1_, y1_;      // its edges in the frame around p
   double distance_;               // of its plane from p
-  double b0_ = 0, b1_ = 0;        // Urena's coefficients
-  double cos_k_ = 1, sin_k_ = 0;  // of his angle k
+  double cos_k_ = 1, sin_k_ = 0;  // of Urena's angle k, times anything positive
   double solid_angle_ = 0;
 };
 

@@ -98,7 +98,7 @@ void follow_light_path(const Scene& scene, const EmissionSampler& lights, const 
     const uint32_t dimension = kLightPathDimensions + static_cast<uint32_t>(depth - 1) * kLightVertexDimensions;
     HashStream rng(sampler.key(dimension));
     const Shading shading = scene.shade(surface, context, rng);
-    const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
+    const SurfaceScatter scatter(shading.closure(), shading.frame, surface.point.ng);
     if (!at_vertex(LightPathVertex{depth, hit, surface, shading, scatter, ray, context, flux, hidden, rng, dimension}))
       return;
     if (depth == settings.max_depth) return;

@@ -42,7 +42,7 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
   const Light& light = scene.lights[choice->light];
   const auto s = light.sample_li(v.point.p, u_point, v.context, how.sampling());
   if (!s) return Spectrum();
-  const Spectrum f = v.scatter.eval_cos(v.wo(), s->wi, TransportMode::kRadiance, rng);
+  const auto [f, scatter_density] = v.scatter.eval_pdf(v.wo(), s->wi, rng);
   recorder.light_sample(*s, f);
   if (is_black(f)) return Spectrum();
   ++rays.shadow;
@@ -51,7 +51,7 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
   const bool both = how.mis && !s->is_delta;
-  const float scatter_pdf = both ? v.scatter.pdf(v.wo(), s->wi, TransportMode::kRadiance) : 0.0f;
+  const float scatter_pdf = both ? scatter_density : 0.0f;
   const float weight = both ? mis_weight(how.heuristic, pdf, scatter_pdf) : 1.0f;
   recorder.light_visible(scatter_pdf, weight);
   return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light, v.context));

@@ -124,6 +124,7 @@ namespace {
 // Sampler dimensions: those of the camera, then a fixed block per path vertex.
 constexpr uint32_t kVertexDimensions = 6;
 enum VertexDimension : uint32_t { kLightChoice, kLightPoint, kScatter, kScatterLobe, kRoulette };
+static_assert(kCameraDimensions + kRoulette <= DigitBlock::kSize, "the first vertex draws what the start has fetched");
 
 }  // namespace
 
@@ -138,6 +139,7 @@ PixelSample PathIntegrator::record_pixel(int x, int y, Sampler& sampler, PathRec
 template <class Recorder>
 PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recorder) const {
   PixelSample out;
+  sampler.fetch(0);
   const CameraPathStart start = start_camera_path(scene_, x, y, sampler, out);
   Ray ray = start.ray;
   const ShadingContext context{ray.time};
@@ -193,9 +195,10 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
 
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
+    if (depth > 0) sampler.fetch(dimension);
     Shading shading = scene_.shade(surface, context, rng);
     if (settings_.bent_normals) shading.frame = bend_to_viewer(shading.frame, point.ng, wo);
-    const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
+    const SurfaceScatter scatter(shading.closure(), shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
     recorder.surface(hit, surface, shading);
     features.shade(point, scatter, wo, out);

@@ -252,7 +252,7 @@ std::vector<SeenPoint> SppmIntegrator::pilot_points() const {
       length += static_cast<double>(hit.t);
       const SurfaceHit surface = scene_.surface(hit);
       const Shading shading = scene_.shade(surface, {ray.time}, rng);
-      const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
+      const SurfaceScatter scatter(shading.closure(), shading.frame, surface.point.ng);
       if (scatter.bsdf().has_smooth_lobe() && !is_near_delta(scatter.bsdf())) {
         // As if the path were straight. The diagonal of a pixel is sqrt(2) wide.
         const Vec3d apart = to_double(next.o - first.o) + length * to_double(next.d - first.d);
@@ -339,7 +339,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     const uint32_t dimension = kCameraDimensions + static_cast<uint32_t>(depth) * kVertexDimensions;
     HashStream rng(sampler.key(dimension));
     const Shading shading = scene_.shade(surface, context, rng);
-    const SurfaceScatter scatter(shading.closure, shading.frame, point.ng);
+    const SurfaceScatter scatter(shading.closure(), shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
     features.shade(point, scatter, wo, out);
     if (depth == settings_.max_depth) break;

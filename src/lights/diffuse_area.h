@@ -34,20 +34,21 @@ struct DiffuseAreaLight {
   }
 
   std::optional<LightSample> sample_li(Point3 p, Vec2 u, const ShadingContext&, LightSampling) const {
-    LightSample s;
+    std::optional<LightSample> sample(std::in_place);  // filled in place: it is large
+    LightSample& s = *sample;
     float pdf_area = 0;
     const auto seen = surface.seen_from(p);
     s.on_light = seen ? seen->sample(u) : surface.sample(u, pdf_area);
     const Vec3 d = s.on_light.p - p;
     const float d2 = dot(d, d);
-    if (!(d2 > 0.0f)) return {};
+    if (!(d2 > 0.0f)) return sample.reset(), sample;
     s.wi = d * (1.0f / std::sqrt(d2));
     s.radiance = emission.towards(s.on_light, -s.wi);
     s.is_delta = emission.invisible;
     s.pdf =
         seen ? static_cast<float>(1.0 / seen->solid_angle()) : to_solid_angle(pdf_area, d2, dot(s.on_light.ng, s.wi));
-    if (is_black(s.radiance) || !(s.pdf > 0.0f) || !std::isfinite(s.pdf)) return {};
-    return s;
+    if (is_black(s.radiance) || !(s.pdf > 0.0f) || !std::isfinite(s.pdf)) sample.reset();
+    return sample;
   }
 
   float pdf_li(Point3 p, Vec3 wi, const SurfacePoint* s, const ShadingContext& context, LightSampling) const {

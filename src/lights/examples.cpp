@@ -103,7 +103,8 @@ LightExample rectangle(std::string name, bool textured, bool two_sided, bool inv
   auto mesh = std::make_shared<const Mesh>(std::move(m));
   const Image* image = textured ? data->keep(std::make_shared<const Image>(uneven_image(6, 3))) : nullptr;
   const AreaEmission emission{Spectrum::rgb(1.0f, 2.0f, 0.5f), image, two_sided, invisible};
-  const DiffuseAreaLight<RectangleSurface> light(emission, *RectangleSurface::find(*mesh, 0), 400);
+  const RectangleSurface surface(data->rectangles.emplace_back(*LightRectangle::find(*mesh, 0)));
+  const DiffuseAreaLight<RectangleSurface> light(emission, surface, 400);
   return {std::move(name), Light(light), mesh, nullptr, data};
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/animated_transform.h"
 #include "lights/environment_map.h"
+#include "lights/light_surfaces.h"
 #include "lights/portal_map.h"
 
 namespace etd {
@@ -22,6 +23,7 @@ struct LightData {
   std::vector<std::shared_ptr<const Image>> images;
   std::deque<GridDistribution> grids;
   std::deque<AnimatedTransform> motions;
+  std::deque<LightRectangle> rectangles;
   // What keeps an image, and where it is then.
   const Image* keep(std::shared_ptr<const Image> image) { return images.emplace_back(std::move(image)).get(); }
 
@@ -39,7 +41,7 @@ struct LightData {
   LightImages* kept = nullptr;  // what was read for the same lights before; what is read is added
 
   size_t bytes() const {
-    size_t sum = 0;
+    size_t sum = rectangles.size() * sizeof(LightRectangle);
     for (const EnvironmentMap& map : environments) sum += map.bytes();
     for (const PortalMap& portal : portals) sum += portal.bytes();
     for (const auto& image : images) sum += image->bytes();

@@ -50,7 +50,7 @@ SurfacePoint TriangleSurface::View::sample(Vec2 u) const {
   return point_of_triangle(mesh, surface.triangle_, barycentrics(mesh, surface.triangle_, at));
 }
 
-std::optional<RectangleSurface> RectangleSurface::find(const Mesh& mesh, uint32_t first) {
+std::optional<LightRectangle> LightRectangle::find(const Mesh& mesh, uint32_t first) {
   if (first + 1 >= mesh.triangles.size()) return {};
   const auto &a = mesh.triangles[first], &b = mesh.triangles[first + 1];
   // The corner of the first triangle that faces the shared edge, and the corner opposite to it.
@@ -58,45 +58,71 @@ std::optional<RectangleSurface> RectangleSurface::find(const Mesh& mesh, uint32_
   const auto in_b = [&](uint32_t v) {
     return position(v) == position(b[0]) || position(v) == position(b[1]) || position(v) == position(b[2]);
   };
-  int alone = -1, shared = 0;
-  for (int i = 0; i < 3; ++i) in_b(a[static_cast<size_t>(i)]) ? void(++shared) : void(alone = i);
-  if (shared != 2 || alone < 0) return {};
-  RectangleSurface r;
-  r.mesh_ = &mesh;
-  r.first_ = first;
-  r.corner_ = a[static_cast<size_t>(alone)];
-  r.end_x_ = a[static_cast<size_t>((alone + 1) % 3)];
-  r.end_y_ = a[static_cast<size_t>((alone + 2) % 3)];
-  const auto is_shared = [&](uint32_t v) {
-    return position(v) == position(r.end_x_) || position(v) == position(r.end_y_);
-  };
-  uint32_t opposite = b[0];
-  int others = 0;
-  for (const uint32_t v : b)
-    if (!is_shared(v)) opposite = v, ++others;
-  if (others != 1) return {};
+  size_t alone = 3;
+  int shared = 0;
+  for (size_t i = 0; i < 3; ++i) in_b(a[i]) ? void(++shared) : void(alone = i);
+  if (shared != 2 || alone == 3) return {};
+  const size_t at_x = (alone + 1) % 3, at_y = (alone + 2) % 3;  // in a, the neighbours of its lone corner
+  const Point3 corner = position(a[alone]), end_x = position(a[at_x]), end_y = position(a[at_y]);
+  // The same corners in b.
+  size_t opposite = 3, also_x = 3, also_y = 3;
+  for (size_t i = 0; i < 3; ++i) (position(b[i]) == end_x ? also_x : position(b[i]) == end_y ? also_y : opposite) = i;
+  if (opposite == 3 || also_x == 3 || also_y == 3) return {};
 
-  const Point3d o = vertex(mesh, r.corner_);
-  const Vec3d x = vertex(mesh, r.end_x_) - o, y = vertex(mesh, r.end_y_) - o, d = vertex(mesh, opposite) - o;
-  if (!is_rectangle(x, y, d)) return {};
-  // Both triangles must face the same side.
+  const Point3 across = position(b[opposite]);
+  const Point3d o = to_double(corner);
+  const Vec3d x = to_double(end_x) - o, y = to_double(end_y) - o;
+  if (!is_rectangle(x, y, to_double(across) - o)) return {};
+  // Both triangles must face the same side, the same one everywhere.
+  const auto at_corner = [&](uint32_t triangle, size_t i) {
+    return triangle_point(mesh, triangle, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f);
+  };
+  const Vec3 ng = at_corner(first, 0).ng;
+  const auto uv = [&](uint32_t triangle, size_t i) { return triangle_uv(mesh, triangle, i); };
+  for (const uint32_t triangle : {first, first + 1})
+    for (size_t i = 0; i < 3; ++i)
+      if (!(dot(at_corner(triangle, i).ng, ng) > 0.0f)) return {};
   const Point3d b0 = vertex(mesh, b[0]);
-  if (dot(cross(vertex(mesh, b[1]) - b0, vertex(mesh, b[2]) - b0), cross(x, y)) <= 0.0) return {};
-  r.area_ = static_cast<float>(length(cross(x, y)));
-  return r;
+  const Vec3d n = cross(x, y);
+  if (!(dot(cross(vertex(mesh, b[1]) - b0, vertex(mesh, b[2]) - b0), n) > 0.0)) return {};
+  const TriangleFace face_a = triangle_face(mesh, first), face_b = triangle_face(mesh, first + 1);
+  return LightRectangle{
+      .halves = {{corner, end_x, end_y, uv(first, alone), uv(first, at_x), uv(first, at_y), ng, face_a.error},
+                 {across, end_y, end_x, uv(first + 1, opposite), uv(first + 1, also_y), uv(first + 1, also_x),
+                  at_corner(first + 1, 0).ng, face_b.error}},
+      .frame = {o, x, y},
+      .area = static_cast<float>(length(n)),
+      .edge = std::max(face_a.edge, face_b.edge)};
 }
 
-SurfacePoint RectangleSurface::point(double x, double y) const {
-  const Point3d o = vertex(*mesh_, corner_);
-  const Point3d at = o + (vertex(*mesh_, end_x_) - o) * x + (vertex(*mesh_, end_y_) - o) * y;
-  // The first triangle is the half next to the corner.
-  const uint32_t triangle = x + y <= 1.0 ? first_ : first_ + 1;
-  return point_of_triangle(*mesh_, triangle, barycentrics(*mesh_, triangle, at));
+SurfacePoint RectangleSurface::point(Vec2T<double> at) const {
+  const LightRectangle& r = *rectangle_;
+  const bool near = at.x + at.y <= 1.0;
+  const LightRectangle::Half& half = r.halves[near ? 0 : 1];
+  double x = near ? at.x : 1.0 - at.x, y = near ? at.y : 1.0 - at.y;
+  const auto blended = [&half](double bx, double by) {
+    return blend(to_double(half.corner), to_double(half.end_x), to_double(half.end_y), 1.0 - bx - by, bx, by);
+  };
+  SurfacePoint s;
+  s.ng = s.ns = half.ng;
+  Point3d p = blended(x, y);
+  s.p_error = point_error(p, half.ng, half.error);
+  // Away from the edges of the rectangle, as triangle_point() keeps its points; the other triangle goes on behind the
+  // third.
+  const double nearest = nearest_edge(s.p_error, r.edge);
+  if (!(x >= nearest && y >= nearest)) {
+    x = std::max(x, nearest), y = std::max(y, nearest);
+    p = blended(x, y);
+  }
+  s.p = to_float(p);
+  const auto bx = static_cast<float>(x), by = static_cast<float>(y);
+  s.uv = {half.uv.x + bx * (half.uv_x.x - half.uv.x) + by * (half.uv_y.x - half.uv.x),
+          half.uv.y + bx * (half.uv_x.y - half.uv.y) + by * (half.uv_y.y - half.uv.y)};
+  return s;
 }
 
 std::optional<RectangleSurface::View> RectangleSurface::seen_from(Point3 p) const {
-  const Point3d o = vertex(*mesh_, corner_);
-  const SphericalRectangle seen(to_double(p), o, vertex(*mesh_, end_x_) - o, vertex(*mesh_, end_y_) - o);
+  const SphericalRectangle seen(to_double(p), rectangle_->frame);
   if (!(seen.solid_angle() > kSmallSolidAngle)) return {};
   return View{*this, seen};
 }
@@ -146,7 +172,7 @@ PatchSurface::PatchSurface(const PatchMesh& mesh, uint32_t patch)
 std::optional<PatchSurface::View> PatchSurface::seen_from(Point3 p) const {
   if (!is_rectangle_) return {};
   const PatchCorner at(*mesh_, patch_);
-  const SphericalRectangle seen(to_double(p), at.corner, at.x, at.y);
+  const SphericalRectangle seen(to_double(p), {at.corner, at.x, at.y});
   if (!(seen.solid_angle() > kSmallSolidAngle)) return {};
   return View{*this, seen};
 }

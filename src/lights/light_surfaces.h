@@ -44,39 +44,48 @@ class TriangleSurface {
   float area_;
 };
 
-// Two neighbouring triangles of a mesh that make a rectangle.
+// Two neighbouring triangles of a mesh that make a rectangle, with all that sampling it needs.
+struct LightRectangle {
+  // Returns the rectangle of the triangles `first` and first + 1, if they make one.
+  static std::optional<LightRectangle> find(const Mesh& mesh, uint32_t first);
+
+  // A triangle, from its right angle: x runs along the rectangle's x or against it, y as well.
+  struct Half {
+    Point3 corner, end_x, end_y;
+    Vec2 uv, uv_x, uv_y;  // at these
+    Vec3 ng;
+    float error;  // TriangleFace's
+  };
+  Half halves[2];  // next to the frame's corner, and opposite to it
+  RectangleFrame frame;
+  float area;
+  float edge;  // TriangleFace's, the greater one
+};
+
 class RectangleSurface {
  public:
-  // Returns the rectangle of the triangles `first` and first + 1, if they make one.
-  static std::optional<RectangleSurface> find(const Mesh& mesh, uint32_t first);
+  explicit RectangleSurface(const LightRectangle& rectangle) : rectangle_(&rectangle) {}
 
-  float area() const { return area_; }
+  float area() const { return rectangle_->area; }
   SurfacePoint sample(Vec2 u, float& pdf_area) const {
-    pdf_area = 1.0f / area_;
-    return point(static_cast<double>(u.x), static_cast<double>(u.y));
+    pdf_area = 1.0f / area();
+    return point({u.x, u.y});
   }
-  float pdf_area(const SurfacePoint&) const { return 1.0f / area_; }
+  float pdf_area(const SurfacePoint&) const { return 1.0f / area(); }
 
   struct View {
     const RectangleSurface& surface;
     SphericalRectangle seen;
     double solid_angle() const { return seen.solid_angle(); }
-    SurfacePoint sample(Vec2 u) const {
-      const Vec2T<double> at = seen.sample(u);
-      return surface.point(at.x, at.y);
-    }
+    SurfacePoint sample(Vec2 u) const { return surface.point(seen.sample(u)); }
   };
   std::optional<View> seen_from(Point3 p) const;
 
  private:
-  RectangleSurface() = default;
-  // The point that lies the shares x and y along the two edges from the corner.
-  SurfacePoint point(double x, double y) const;
+  // The point, without dpdu and dpdv, that lies these shares along the two edges from the corner.
+  SurfacePoint point(Vec2T<double> at) const;
 
-  const Mesh* mesh_ = nullptr;
-  uint32_t first_ = 0;
-  uint32_t corner_ = 0, end_x_ = 0, end_y_ = 0;  // vertices: a corner and its neighbours
-  float area_ = 0;
+  const LightRectangle* rectangle_;
 };
 
 class QuadricSurface {

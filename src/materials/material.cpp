@@ -9,6 +9,11 @@ Bsdf Material::closure(const TexCoord& at, const TextureTable& textures, const S
   return dispatch<Bsdf, Materials>(storage_, [&](const auto& m) { return m.closure(at, textures, context); });
 }
 
+void Material::keep_closure() {
+  const Bsdf closure = this->closure({}, {}, {});
+  if (closure.is_isotropic()) plain_ = closure;
+}
+
 namespace {
 const MixMaterial* as_mix(const TaggedStorage<240>& storage) {
   constexpr uint32_t kMix = Materials::index_of<MixMaterial>();
@@ -43,6 +48,10 @@ std::optional<Material> make(const ParamReader& params, TextureBuilder& textures
   } else if constexpr (requires { T::create(params, textures); }) {
     Material material(T::create(params, textures));
     material.detail = SurfaceDetail::create(params, textures);
+    const auto& given = params.use().params;
+    const bool textured =
+        std::any_of(given.begin(), given.end(), [](const Param& p) { return p.kind == ParamKind::kTexture; });
+    if (!textured && material.detail.normal_map < 0) material.keep_closure();
     return material;
   } else {
     return {};

@@ -16,6 +16,9 @@ class Material {
  public:
   template <class T>
   explicit Material(const T& material);
+  // The closure, where it is the same in every place and in every frame around the shading normal, which is then that
+  // of the surface: no texture and no tangent matters. Otherwise null.
+  const Bsdf* plain() const { return plain_ ? &*plain_ : nullptr; }
   // Returns the closure of any material but a mix, for which resolve() comes first.
   Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const;
 
@@ -33,8 +36,12 @@ class Material {
 
   SurfaceDetail detail;
 
+  // For one that has no textures: keeps its closure, if it is plain.
+  void keep_closure();
+
  private:
   TaggedStorage<240> storage_;
+  std::optional<Bsdf> plain_;
 };
 
 // Says where the named materials of a scene stand in its array; nothing for those that are no surface.

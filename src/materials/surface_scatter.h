@@ -30,6 +30,12 @@ class SurfaceScatter {
     return importance ? f * std::abs(dot(wi, ng_) / dot(wo, ng_)) : f;
   }
 
+  // eval_cos() and pdf() of radiance.
+  BsdfValue eval_pdf(Vec3 wo, Vec3 wi, HashStream& rng) const {
+    const Vec3 light = frame_.to_local(wi);
+    return carries(light, wi) ? bsdf_.eval_pdf(local_viewer(wo), light, rng) : BsdfValue();
+  }
+
   // Returns the density per solid angle.
   float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides = kBothSides) const {
     if (mode == TransportMode::kRadiance) {
@@ -70,10 +76,10 @@ class SurfaceScatter {
   // Fails where the light would carry nothing.
   std::optional<BsdfSample> sample_light(Vec3 wo, Vec3 u, HashStream& rng, Lobe sides) const {
     std::optional<BsdfSample> s = bsdf_.sample(local_viewer(wo), u, TransportMode::kRadiance, rng, sides);
-    if (!s) return {};
+    if (!s) return s;
     const Vec3 light = s->wi;
     s->wi = frame_.to_world(light);
-    if (!carries(light, s->wi)) return {};
+    if (!carries(light, s->wi)) s.reset();
     return s;
   }
 

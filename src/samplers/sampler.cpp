@@ -20,22 +20,21 @@ void Sampler::start(uint64_t stream, uint32_t replicate, uint32_t index) {
   next_.key = hash_combine(seed_, replicate, stream);
   next_.index = index;
   next_.dimension = 0;
+  fetched_ = kNone;
 }
 
-float Sampler::get_1d() {
-  const SampleNumber n = advance();
-  return dispatch<float, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_1d(n); });
+Digits Sampler::digits(const SampleNumber& n) const {
+  return dispatch<Digits, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.digits(n); });
 }
 
-double Sampler::get_choice() {
-  const SampleNumber n = advance();
-  const auto bits = dispatch<uint64_t, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_bits(n); });
-  return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
-Vec2 Sampler::get_2d() {
-  const SampleNumber n = advance();
-  return dispatch<Vec2, Samplers>(kind_.storage_, [&](const auto& kind) { return kind.get_2d(n); });
+void Sampler::fetch(uint32_t dimension) {
+  const SampleNumber n{next_.key, next_.index, dimension};
+  fetched_ = dispatch<uint32_t, Samplers>(kind_.storage_, [&](const auto& kind) {
+    if constexpr (requires { kind.digits(n, block_); })
+      return kind.digits(n, block_), dimension;
+    else
+      return kNone;
+  });
 }
 
 uint64_t Sampler::key(uint64_t salt) const { return hash_combine(next_.key, next_.index, salt); }

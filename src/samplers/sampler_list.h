@@ -1,6 +1,5 @@
 // The list of samplers. To add one: its header, and its name in the list. A type T of it has T::decl(), whose
-// parameters are sampler_params() at least, T::kTraits, and the functions get_1d, get_2d and get_bits, which are
-// functions of nothing but the number's place.
+// parameters are sampler_params() at least, T::kTraits, and digits(), a function of nothing but the number's place.
 #pragma once
 
 #include "samplers/independent.h"

@@ -15,22 +15,27 @@ struct SobolSampler {
     return d;
   }
 
-  ETD_FN static float get_1d(const SampleNumber& n) { return unit_float(digits(n, n.hash())); }
-  ETD_FN static Vec2 get_2d(const SampleNumber& n) {
+  ETD_FN static Digits digits(const SampleNumber& n) {
     const uint64_t h = n.hash();
     const uint32_t i = shuffled_index(n.index, static_cast<uint32_t>(h));
-    return {unit_float(owen_sobol_x(i, static_cast<uint32_t>(h >> 32))),
-            unit_float(owen_sobol_y(i, static_cast<uint32_t>(mix_bits(h))))};
-  }
-  // Behind the 32 digits that an index has, an Owen scramble is plain noise.
-  ETD_FN static uint64_t get_bits(const SampleNumber& n) {
-    const uint64_t h = n.hash();
-    return static_cast<uint64_t>(digits(n, h)) << 32 | hash_combine(h, n.index) >> 32;
+    return {owen_sobol_x(i, static_cast<uint32_t>(h >> 32)), owen_sobol_y(i, static_cast<uint32_t>(mix_bits(h)))};
   }
 
- private:
-  ETD_FN static uint32_t digits(const SampleNumber& n, uint64_t h) {
-    return owen_sobol_x(shuffled_index(n.index, static_cast<uint32_t>(h)), static_cast<uint32_t>(h >> 32));
+  // Hashes need 64 bits and are made one by one; what follows are loops over lanes of 32.
+  ETD_FN static void digits(SampleNumber n, DigitBlock& out) {
+    constexpr uint32_t kSize = DigitBlock::kSize;
+    uint32_t order[kSize], x[kSize], y[kSize];
+    for (uint32_t lane = 0; lane < kSize; ++lane, ++n.dimension) {
+      const uint64_t h = n.hash();
+      order[lane] = static_cast<uint32_t>(h);
+      x[lane] = static_cast<uint32_t>(h >> 32);
+      y[lane] = static_cast<uint32_t>(mix_bits(h));
+    }
+    for (uint32_t lane = 0; lane < kSize; ++lane) {
+      const uint32_t i = shuffled_index(n.index, order[lane]);
+      out.x[lane] = owen_sobol_x(i, x[lane]);
+      out.y[lane] = owen_sobol_y(i, y[lane]);
+    }
   }
 };
 

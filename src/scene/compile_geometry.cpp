@@ -12,6 +12,7 @@
 #include "scene/registry.h"
 #include "shapes/cut_triangles.h"
 #include "shapes/shape.h"
+#include "shapes/triangle.h"
 
 namespace etd {
 
@@ -221,6 +222,7 @@ class GeometryCompiler {
       emitter = {placed.shape, Emitter::Kind::kMesh, static_cast<uint32_t>(scene_.geometry.meshes.size())};
       group.meshes.push_back(emitter.index);
       scene_.geometry.meshes.push_back(place_mesh(*it->second.mesh, to_space, reverse, viewer));
+      prepare_faces(scene_.geometry.meshes.back());
       scene_.moves |= it->second.mesh->motion_steps > 1;
       warn_if_coarse(*placed.shape, scene_.geometry.meshes.back(), viewer);
       scene_.mesh_bindings.push_back(binding);

@@ -18,14 +18,14 @@ struct MeshSurfaces {
   ShapeSurfaces all;
   std::vector<uint32_t> of_triangle;
 
-  explicit MeshSurfaces(const Mesh& mesh) {
+  MeshSurfaces(const Mesh& mesh, LightData& data) {
     const auto count = static_cast<uint32_t>(mesh.triangles.size());
     std::vector<bool> in_rectangle;
     for (uint32_t t = 0; t < count; ++t) {
-      if (const auto r = RectangleSurface::find(mesh, t)) {
+      if (const auto r = LightRectangle::find(mesh, t)) {
         of_triangle.insert(of_triangle.end(), 2, static_cast<uint32_t>(all.rectangles.size()));
         in_rectangle.insert(in_rectangle.end(), 2, true);
-        all.rectangles.push_back(*r);
+        all.rectangles.emplace_back(data.rectangles.emplace_back(*r));
         ++t;
       } else {
         of_triangle.push_back(static_cast<uint32_t>(all.triangles.size()));
@@ -62,7 +62,7 @@ uint32_t AreaLightCompiler::add(const ModelUse& use, const ShapeSurfaces& surfac
 }
 
 void AreaLightCompiler::add_mesh(const ModelUse& use, uint32_t index, bool invisible) {
-  const MeshSurfaces surfaces(scene_.geometry.meshes[index]);
+  const MeshSurfaces surfaces(scene_.geometry.meshes[index], scene_.light_data);
   if (!surfaces.has_area())
     diagnostics_.warning(use.loc, "an area light on a mesh without an area gives no light",
                          "its triangles are missing, or flat as lines");

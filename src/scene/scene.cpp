@@ -42,8 +42,8 @@ bool Scene::find_solid(Ray ray, Hit& hit) const {
 SurfaceHit Scene::surface(const Hit& hit) const {
   const SurfaceBinding& binding = binding_of(hit);
   SurfaceHit s;
-  s.point = surface_point(geometry, hit);
   s.material = &materials[binding.material];
+  s.point = surface_point(geometry, hit, !s.material->plain());
   if (binding.first_light != kNoId)
     s.light = hit.on_quadric() ? binding.first_light : face_lights[binding.first_light + hit.primitive];
   return s;
@@ -71,9 +71,18 @@ TexCoord Scene::tex_coord(const SurfacePoint& s) const {
 }
 
 Shading Scene::shade(const SurfaceHit& surface, const ShadingContext& context, HashStream& rng) const {
+  Shading s;
+  s.material = surface.material;
+  s.plain = s.material->plain();
+  if (s.plain) {
+    s.frame = Frame::from_z(surface.point.ns);
+    return s;
+  }
   const TexCoord at = tex_coord(surface.point);
-  const Material& material = surface.material->resolve(at, textures, context, materials, rng);
-  return {material.closure(at, textures, context), material.frame(surface.point, at, textures, context), &material};
+  s.material = &surface.material->resolve(at, textures, context, materials, rng);
+  s.made = s.material->closure(at, textures, context);
+  s.frame = s.material->frame(surface.point, at, textures, context);
+  return s;
 }
 
 size_t Scene::geometry_bytes() const {

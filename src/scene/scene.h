@@ -37,7 +37,10 @@ struct SurfaceHit {
 
 // A closure and the frame in which it scatters.
 struct Shading {
-  Bsdf closure;
+  const Bsdf& closure() const { return plain ? *plain : made; }
+
+  const Bsdf* plain = nullptr;  // the material's own, or it is made for the place:
+  Bsdf made;
   Frame frame;
   const Material* material = nullptr;  // of a mix the one that was chosen
 };

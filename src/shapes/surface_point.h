@@ -16,16 +16,15 @@ struct SurfacePoint {
 };
 
 // The origin of a ray that leaves `s` towards w: p moved by p_error along ng to w's side, every coordinate then rounded
-// one step further in the direction of the move, so that rounding cannot take any of the distance back (the idea of
-// Pharr, Jakob and Humphreys 2023, section 6.8.6).
+// one or two steps further in the direction of the move, so that rounding cannot take any of the distance back (the
+// idea of Pharr, Jakob and Humphreys 2023, section 6.8.6).
 ETD_FN Point3 offset_origin(const SurfacePoint& s, Vec3 w) {
   const Vec3 shift = s.ng * (dot(w, s.ng) >= 0.0f ? s.p_error : -s.p_error);
-  Point3 o = s.p + shift;
-  for (int i = 0; i < 3; ++i) {
-    if (shift[i] > 0.0f) o[i] = next_up(o[i]);
-    if (shift[i] < 0.0f) o[i] = next_down(o[i]);
-  }
-  return o;
+  const auto moved = [](float p, float by) {
+    const float o = p + by, step = std::max(std::abs(o) * 0x1p-23f, std::numeric_limits<float>::min());
+    return by == 0.0f ? o : o + std::copysign(step, by);
+  };
+  return {moved(s.p.x, shift.x), moved(s.p.y, shift.y), moved(s.p.z, shift.z)};
 }
 
 }  // namespace etd

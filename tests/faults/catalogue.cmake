@@ -103,9 +103,9 @@ edit(core/distribution.cpp [[bins_[small.index].alias = large.index;]]
      [[bins_[small.index].alias = FAULT ? small.index : large.index;]])
 
 fault(correlated-dimensions "all two-dimensional numbers of a path are the same" "Sampler.*:SobolSampler.*")
-edit(samplers/sampler.cpp [[Vec2 Sampler::get_2d() {
-  const SampleNumber n = advance();]] [[Vec2 Sampler::get_2d() {
-  const SampleNumber n = FAULT ? SampleNumber{next_.key, next_.index, 0} : advance();]])
+edit(samplers/sampler.h [[    const Digits d = advance();
+    return {unit_float(d.x)]] [[    const Digits d = FAULT ? digits({next_.key, next_.index, 0}) : advance();
+    return {unit_float(d.x)]])
 
 fault(correlated-pixels "all pixels use the same numbers" "Sampler.*:SobolSampler.*")
 edit(samplers/sampler.cpp [[next_.key = hash_combine(seed_, replicate, stream);]]

@@ -20,7 +20,7 @@ namespace etd {
 // samplers/sampler.h says what the functions of a sampler do.
 struct SamplerFunctions {
   std::function<void(uint64_t stream, uint32_t replicate, uint32_t index)> start;
-  std::function<void(uint32_t dimension)> set_dimension;
+  std::function<void(uint32_t dimension)> set_dimension, fetch;
   std::function<float()> get_1d;
   std::function<Vec2()> get_2d;
   std::function<Vec3()> get_3d;

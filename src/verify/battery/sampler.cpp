@@ -135,6 +135,7 @@ CheckResult check_random_access(const SamplerModel& model, uint64_t seed) {
     again.start(99, 0, 3);
     again.get_2d();
     again.start(1234, 1, index);
+    if (index % 2 == 1) again.fetch(index % 6);  // from before, among or behind those that are drawn
     again.set_dimension(4);
     bool equal = again.get_choice() == d;
     again.set_dimension(2);
@@ -171,6 +172,7 @@ SamplerModel sampler_model(const std::string& name) {
             return SamplerFunctions{.start = [s](uint64_t stream, uint32_t replicate,
                                                  uint32_t index) { s->start(stream, replicate, index); },
                                     .set_dimension = [s](uint32_t dimension) { s->set_dimension(dimension); },
+                                    .fetch = [s](uint32_t dimension) { s->fetch(dimension); },
                                     .get_1d = [s] { return s->get_1d(); },
                                     .get_2d = [s] { return s->get_2d(); },
                                     .get_3d = [s] { return s->get_3d(); },

@@ -35,7 +35,7 @@ WarpModel spherical_triangle(std::string setting, const Point3d (&corners)[3]) {
 }
 
 WarpModel spherical_rectangle(std::string setting, Point3d corner, Vec3d x, Vec3d y) {
-  const SphericalRectangle r({0, 0, 0}, corner, x, y);
+  const SphericalRectangle r({0, 0, 0}, {corner, x, y});
   const auto direction = [=](Vec2 u) {
     const Vec2T<double> at = r.sample(u);
     return normalize(corner + x * at.x + y * at.y - Point3d{0, 0, 0});

@@ -50,7 +50,7 @@ SamplePeaks find_sample_peaks(const Scene& scene, int width, int height) {
       const SurfaceHit surface = scene.surface(hit);
       look_at_lights(scene, surface.point, context, rng, emission, arriving);
       const Shading shading = scene.shade(surface, context, rng);
-      const SurfaceScatter scatter(shading.closure, shading.frame, surface.point.ng);
+      const SurfaceScatter scatter(shading.closure(), shading.frame, surface.point.ng);
       const float x = rng.next_float(), y = rng.next_float(), z = rng.next_float();
       const auto s = scatter.sample(-ray.d, {x, y, z}, TransportMode::kRadiance, rng);
       if (!s) break;
