@@ -4,7 +4,7 @@
   many_lights.py LIGHTS FOLDER
 
 FOLDER/scene.pbrt is the scene. The geometry is the same for any number of lights, and so is the power of all of them
-together. The triangles hang 1 m to 6 m above the ground, 200 m x 200 m, at random, a few centimetres long and turned to
+together. The triangles hang 3 m to 8 m above the ground, 200 m x 200 m, at random, a few centimetres long and turned to
 all sides. A part of the lights is much brighter than the others.
 """
 import array
@@ -26,7 +26,7 @@ def unit(rng):
 
 def triangle(rng):
     """Nine coordinates."""
-    c = (rng.uniform(-FIELD / 2, FIELD / 2), rng.uniform(-FIELD / 2, FIELD / 2), rng.uniform(1, 6))
+    c = (rng.uniform(-FIELD / 2, FIELD / 2), rng.uniform(-FIELD / 2, FIELD / 2), rng.uniform(3, 8))
     size = rng.uniform(0.01, 0.04)
     return [x + size * d for _ in range(3) for x, d in zip(c, unit(rng))]
 
@@ -62,8 +62,8 @@ def main():
         groups[group].append(t)
         weighted += area(t) * BRIGHTNESS[group]
     scale = POWER / (3.14159265 * weighted)
-    text = ['LookAt 0 -12 1.8  0 0 0.4  0 0 1', 'Camera "perspective" "float fov" 60',
-            'Film "rgb" "integer xresolution" 320 "integer yresolution" 180 "string filename" "many-lights.exr"',
+    text = ['LookAt 0 -9 2.8  0 0 -0.8  0 0 1', 'Camera "perspective" "float fov" 38',
+            'Film "rgb" "integer xresolution" 160 "integer yresolution" 90 "string filename" "many-lights.exr"',
             'Integrator "path" "integer maxdepth" 1', 'WorldBegin',
             'Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]',
             f'Shape "trianglemesh" "point3 P" [{-FIELD} {-FIELD} 0  {FIELD} {-FIELD} 0  {FIELD} {FIELD} 0  {-FIELD} {FIELD} 0]'

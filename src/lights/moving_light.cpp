@@ -57,7 +57,7 @@ float Light::pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, const S
 }
 
 // A normal turns like the space if that keeps its shape; between two keys it is within half of the step's angle of
-// where it is at one of them.
+// where it is at one of them, or at the first or last time.
 LightBounds Light::bounds_moving(const LightBounds& still, float start, float end) const {
   LightBounds b = still;
   b.intensity *= power_scale_;
@@ -72,7 +72,7 @@ LightBounds Light::bounds_moving(const LightBounds& still, float start, float en
   double step = 0;
   for (size_t k = first; k <= last; ++k) {
     DirectionCone then = still.cone;
-    then.axis = normalize(to_float(motion_->at(static_cast<float>(k) / steps).vector(to_double(still.cone.axis))));
+    then.axis = normalize(to_float(motion_->at(clamp(static_cast<float>(k) / steps, start, end)).vector(to_double(still.cone.axis))));
     cone = cone ? unite(*cone, then) : then;
     if (k < last) step = std::max(step, motion_->turn(k));
   }
