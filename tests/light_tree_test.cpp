@@ -1,5 +1,5 @@
-// The choice among many lights by a tree: every light that may reach a receiver can be chosen, with the probability that
-// is told, and the bounds of lights hold all that they emit.
+// The choice among many lights by a tree: every light that may reach a receiver can be chosen, with the probability
+// that is told, and the bounds of lights hold all that they emit.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -21,7 +21,8 @@ struct ManyLights {
     const auto number = [&] { return 2.0f * rng.next_float() - 1.0f; };
     for (uint32_t i = 0; i < count; ++i) {
       const Point3 at{number(), number(), number()};
-      for (int corner = 0; corner < 3; ++corner) mesh.positions.push_back(at + Vec3{number(), number(), number()} * 0.02f);
+      for (int corner = 0; corner < 3; ++corner)
+        mesh.positions.push_back(at + Vec3{number(), number(), number()} * 0.02f);
       mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     for (uint32_t i = 0; i < count; ++i) {

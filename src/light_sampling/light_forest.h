@@ -10,11 +10,11 @@
 namespace etd {
 
 struct LightForest {
-  std::vector<LightTree> trees;           // of equal parts of the time from 0 to 1
-  const AliasTable* infinite = nullptr;   // null: no infinite light emits
-  const AliasTable* anywhere = nullptr;   // where there is no receiver; null: no light emits
-  float infinite_share = 0;               // of the samples, where finite lights may reach the receiver too
-  std::vector<bool> is_infinite;          // of each light
+  std::vector<LightTree> trees;          // of equal parts of the time from 0 to 1
+  const AliasTable* infinite = nullptr;  // null: no infinite light emits
+  const AliasTable* anywhere = nullptr;  // where there is no receiver; null: no light emits
+  float infinite_share = 0;              // of the samples, where finite lights may reach the receiver too
+  std::vector<bool> is_infinite;         // of each light
 
   const LightTree& at(float time) const {
     const auto count = static_cast<float>(trees.size());

@@ -70,9 +70,10 @@ struct Group {
   double cost() const {
     const double spread = std::acos(std::clamp(2 * length(direction) / intensity - 1, -1.0, 1.0));
     const double end = std::min(spread + fall, kPiD);
-    const double solid_angle = 2 * kPiD * (1 - std::cos(spread)) +
-                               kPiD / 2 * (2 * end * std::sin(spread) - std::cos(spread - 2 * end) -
-                                           2 * spread * std::sin(spread) + std::cos(spread));
+    const double solid_angle =
+        2 * kPiD * (1 - std::cos(spread)) + kPiD / 2 *
+                                                (2 * end * std::sin(spread) - std::cos(spread - 2 * end) -
+                                                 2 * spread * std::sin(spread) + std::cos(spread));
     const Vec3d d = box.diagonal();
     return intensity * solid_angle * dot(d, d);
   }
@@ -189,8 +190,7 @@ class LightTreeBuilder {
       r2 = std::max(r2, dot(corner - center, corner - center));
     }
     node.radius = static_cast<float>(std::sqrt(r2) * (1 + 1e-6)) * tree_.scale_;
-    for (int i = 0; i < 3; ++i)
-      node.axis[i] = static_cast<int16_t>(std::lround(b.cone.axis[i] * LightTree::kUnitAxis));
+    for (int i = 0; i < 3; ++i) node.axis[i] = static_cast<int16_t>(std::lround(b.cone.axis[i] * LightTree::kUnitAxis));
     node.spread = in_steps(b.cone.spread, LightTree::kSteps);
     node.fall = in_steps(b.fall, LightTree::kSteps);
     node.intensity = static_cast<float>(static_cast<double>(b.intensity) / intensity_);

@@ -72,7 +72,8 @@ LightBounds Light::bounds_moving(const LightBounds& still, float start, float en
   double step = 0;
   for (size_t k = first; k <= last; ++k) {
     DirectionCone then = still.cone;
-    then.axis = normalize(to_float(motion_->at(clamp(static_cast<float>(k) / steps, start, end)).vector(to_double(still.cone.axis))));
+    then.axis = normalize(
+        to_float(motion_->at(clamp(static_cast<float>(k) / steps, start, end)).vector(to_double(still.cone.axis))));
     cone = cone ? unite(*cone, then) : then;
     if (k < last) step = std::max(step, motion_->turn(k));
   }
