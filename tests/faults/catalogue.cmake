@@ -185,10 +185,6 @@ fault(light-tree-ignores-width "the tree of lights takes a group for a point whe
 edit(light_sampling/light_tree.cpp [[safe_sqrt(1.0f - sqr(cos_normal)), cos_ball, sin_ball);]]
      [[safe_sqrt(1.0f - sqr(cos_normal)), FAULT ? 1.0f : cos_ball, FAULT ? 0.0f : sin_ball);]])
 
-fault(light-tree-probability-of-sibling "the probability of a light follows its trail to the wrong child" "LightTree.*:LightSampler.*")
-edit(light_sampling/light_tree.cpp [[p *= trail & 1 ? 1.0f - *share : *share;]]
-     [[p *= (trail & 1) != (FAULT ? 1 : 0) ? 1.0f - *share : *share;]])
-
 fault(lights-of-objects-in-place "lights of objects shine where they are described, not where instances put them" "Kinds/ObjectLight.*")
 edit(scene/place_lights.cpp [[places.push_back(to_world);]] [[places.push_back(FAULT ? TransformPath() : to_world);]])
 
