@@ -257,8 +257,10 @@ TEST(ToyModels, LightSampler) {
   const ParamDecl before = light_sampler_param();
   using Longer = WithToy<LightSamplers, ToyLightSampler>;
   const ParamDecl after = choice_param<PowerLightSampler>(Longer{}, before.name, "Chosen ", ".");
-  EXPECT_EQ(after.choices, (std::vector<std::string>{"power", "uniform", "toy"}));
-  EXPECT_EQ(after.doc, "Chosen by their power, all alike, or by chance.");
+  EXPECT_EQ(after.choices, (std::vector<std::string>{"bvh", "power", "uniform", "toy"}));
+  EXPECT_EQ(after.doc,
+            "Chosen by what each may bring to the place, found in a tree of lights, by their power, all alike, or by "
+            "chance.");
   EXPECT_FALSE(with_named(LightSamplers{}, "toy", [](auto) {}));
   const std::vector<Light> lights(4, Light(ConstantInfiniteLight{Spectrum(1.0f)}));
   LightSamplerData data;

@@ -7,8 +7,10 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/bounds.h"
 #include "core/transform.h"
 
 namespace etd {
@@ -78,6 +80,12 @@ class AnimatedTransform {
   bool is_rigid() const;
   // Returns by how much areas grow in the mean over time; exact where all directions grow alike.
   double mean_area_scale() const;
+  // The first and the last of the keys between which the times are.
+  std::pair<size_t, size_t> keys_between(float start, float end) const;
+  // By how much it turns from key `step` to the next, radians.
+  double turn(size_t step) const;
+  // A box around all that the points of `box` pass between two times.
+  Bounds3 swept(const Bounds3& box, float start, float end) const;
   // How far the pivot is from the centre in the space that S maps to, at most.
   float pivot_distance() const { return pivot_distance_; }
 

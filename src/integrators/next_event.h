@@ -28,6 +28,12 @@ struct NextEventVertex {
   Vec3 wo() const { return -ray.d; }
 };
 
+// Who asks for light at a point that is seen along wo. The same receiver tells how light that scattering found could
+// have been chosen.
+inline LightReceiver light_receiver(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, float time) {
+  return {point, wo, (scatter.bsdf().lobes() & kTransmission) != 0, time};
+}
+
 // Returns the radiance that leaves the vertex along wo, weighted. Draws the next two dimensions of the sampler: for the
 // light, and for the point on it. Counts the shadow ray, and tells the recorder (path_record.h) what it does.
 template <class Recorder>
@@ -35,7 +41,7 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
                     HashStream& rng, RayCounts& rays, Recorder& recorder) {
   const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
-  const LightReceiver receiver(v.point, v.context.time);
+  const LightReceiver receiver = light_receiver(v.point, v.scatter, v.wo(), v.context.time);
   const auto choice = how.lights.sample(u_light, &receiver);
   if (!choice) return Spectrum();
   recorder.light(choice->light, choice->probability);

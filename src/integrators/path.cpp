@@ -230,7 +230,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;
     only_scattering = s->is_delta();
-    last = {point, context.time};
+    last = light_receiver(point, scatter, wo, context.time);
     ray = spawn_ray(point, s->wi, ray);
 
     // Russian roulette on the throughput, as it is without the compression of radiance in glass.

@@ -365,7 +365,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->is_delta() ? 0.0f : s->pdf;
-    last = {point, context.time};
+    last = light_receiver(point, scatter, wo, context.time);
     ray = spawn_ray(point, s->wi, ray);
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {

@@ -9,6 +9,7 @@
 
 #include "core/distribution.h"
 #include "core/tagged.h"
+#include "light_sampling/light_forest.h"
 #include "lights/light.h"
 
 namespace etd {
@@ -17,10 +18,14 @@ namespace etd {
 struct LightReceiver {
   LightReceiver() = default;
   LightReceiver(const SurfacePoint& s, float time_of_path) : p(s.p), n(s.ng), time(time_of_path) {}
+  // One that is seen along wo: where the surface only reflects, light from the other side is of no use.
+  LightReceiver(const SurfacePoint& s, Vec3 wo, bool transmits, float time_of_path)
+      : p(s.p), n(dot(s.ng, wo) < 0.0f ? -s.ng : s.ng), time(time_of_path), both_sides(transmits) {}
 
   Point3 p;
   Vec3 n;  // unit geometric normal
   float time = 0;
+  bool both_sides = true;  // light may come from behind n too
 };
 
 struct LightChoice {
@@ -37,6 +42,7 @@ struct LightSamplerContext {
 // What light samplers are too small to hold themselves. Nothing in it moves.
 struct LightSamplerData {
   std::deque<AliasTable> tables;
+  std::deque<LightForest> forests;
 };
 
 class LightSampler {

@@ -4,12 +4,13 @@
 // them against.
 #pragma once
 
+#include "light_sampling/bvh.h"
 #include "light_sampling/power.h"
 #include "light_sampling/uniform.h"
 
 namespace etd {
 
-using LightSamplers = TypeList<PowerLightSampler, UniformLightSampler>;
+using LightSamplers = TypeList<BvhLightSampler, PowerLightSampler, UniformLightSampler>;
 
 template <class T>
 LightSampler::LightSampler(const T& sampler, std::shared_ptr<const LightSamplerData> data) : data_(std::move(data)) {

@@ -11,7 +11,11 @@ double or_nothing(double weight) { return std::isfinite(weight) && weight > 0.0 
 
 double sum_of(const std::vector<double>& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
 
+}  // namespace
+
 double power_of(const Light& light) { return or_nothing(static_cast<double>(luminance(light.power()))); }
+
+namespace {
 
 // The irradiance on a sphere of cross section 1 around the viewer, as one point of the light tells it.
 double seen(const Light& light, Point3 viewer) {

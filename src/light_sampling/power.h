@@ -7,6 +7,9 @@
 
 namespace etd {
 
+// The luminance of the light's power; 0 of one whose power is no number.
+double power_of(const Light& light);
+
 struct PowerLightSampler : LightTable {
   static constexpr const char* kName = "power";
   static constexpr const char* kDoc = "by their power";

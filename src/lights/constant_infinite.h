@@ -27,6 +27,7 @@ struct ConstantInfiniteLight {
   }
   Spectrum emitted(const SurfacePoint*, Vec3, const ShadingContext&, Point3) const { return radiance; }
   Spectrum power() const { return radiance * (4.0f * sqr(kPi)); }
+  static std::optional<LightBounds> bounds() { return {}; }
 };
 
 }  // namespace etd

@@ -90,6 +90,14 @@ struct DiffuseAreaLight {
   }
 
   Spectrum power() const { return mean * (kPi * surface.area() * (emission.two_sided ? 2.0f : 1.0f)); }
+  // A surface with normals to all sides shows a quarter of its area on average.
+  std::optional<LightBounds> bounds() const {
+    const SurfaceBounds s = surface.bounds();
+    LightBounds b{s.box, s.normals};
+    b.cone.both = b.cone.both || emission.two_sided;
+    b.intensity = luminance(mean) * surface.area() * (b.cone.is_everything() ? 0.25f : 1.0f);
+    return b;
+  }
 
  private:
   // Density per solid angle of emitted directions.

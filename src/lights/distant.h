@@ -50,6 +50,7 @@ struct DistantLight {
   float pdf_li(Point3, Vec3, const SurfacePoint*, const ShadingContext&, LightSampling) const { return 0.0f; }
   Spectrum emitted(const SurfacePoint*, Vec3, const ShadingContext&, Point3) const { return Spectrum(); }
   Spectrum power() const { return irradiance * kPi; }
+  static std::optional<LightBounds> bounds() { return {}; }
 };
 
 }  // namespace etd

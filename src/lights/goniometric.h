@@ -43,6 +43,8 @@ struct GoniometricIntensity {
   }
   float pdf(Vec3 w) const { return map->pdf(axes.to_local(w), LightSampling::kComplete); }
   Spectrum power() const { return value * mean_value(map->integral()); }
+  // The mean over all directions has to do, because any of them may be the bright one.
+  void bound(LightBounds& b) const { b.intensity = luminance(power()) / (4.0f * kPi); }
 };
 
 }  // namespace etd

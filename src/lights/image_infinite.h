@@ -45,6 +45,7 @@ struct ImageInfiniteLight {
     return map->value(axes.to_local(-w)) * scale;
   }
   Spectrum power() const { return map->integral() * (kPi * scale); }
+  static std::optional<LightBounds> bounds() { return {}; }
 };
 
 }  // namespace etd

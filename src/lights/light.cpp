@@ -100,6 +100,11 @@ Spectrum Light::power() const {
   return dispatch<Spectrum, Lights>(storage_, [](const auto& l) { return l.power(); }) * power_scale_;
 }
 
+std::optional<LightBounds> Light::bounds(float start, float end) const {
+  const auto still = dispatch<std::optional<LightBounds>, Lights>(storage_, [](const auto& l) { return l.bounds(); });
+  return still && motion_ ? bounds_moving(*still, start, end) : still;
+}
+
 bool Light::enters_by_disks() const {
   return dispatch<bool, Lights>(storage_, []<class T>(const T&) { return kSameFromEverywhere<T>; });
 }

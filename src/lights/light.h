@@ -12,6 +12,7 @@
 #include "core/transform.h"
 #include "io/named_images.h"
 #include "lights/emission_disks.h"
+#include "lights/light_bounds.h"
 #include "params/declaration.h"
 #include "shapes/surface_point.h"
 #include "spectrum/shading_context.h"
@@ -89,6 +90,9 @@ class Light {
   // portal. Other infinite lights have none that does not depend on the scene: theirs is the power through a unit disk,
   // over all directions.
   Spectrum power() const;
+  // Where it is and where it sends light between two times in [0, 1]; nothing of infinite lights.
+  std::optional<LightBounds> bounds(float start, float end) const;
+  bool moves() const { return motion_ != nullptr; }
   // Whether sample_le() starts rays at the disks, as for infinite lights without a portal.
   bool enters_by_disks() const;
   // Which light of the list this is, below kind_count(): tells whether every one of them is tested.
@@ -105,6 +109,7 @@ class Light {
                                            LightSampling sampling) const;
   float pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, const ShadingContext& context,
                    LightSampling sampling) const;
+  LightBounds bounds_moving(const LightBounds& still, float start, float end) const;
 
   TaggedStorage<96> storage_;
   const AnimatedTransform* motion_ = nullptr;

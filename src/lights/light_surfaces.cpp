@@ -31,6 +31,18 @@ bool is_rectangle(Vec3d x, Vec3d y, Vec3d opposite) {
          dot(gap, gap) <= sqr(kTolerance) * std::min(xx, yy);
 }
 
+// Of a mesh with normals each point may have the normal of either side, if the corners do not agree.
+SurfaceBounds triangle_bounds(const Mesh& mesh, uint32_t triangle) {
+  SurfaceBounds all;
+  for (const uint32_t i : mesh.triangles[triangle]) all.box.extend(vertex(mesh, i));
+  const Vec3 n = triangle_point(mesh, triangle, 0, 0).ng;
+  all.normals = {n, 0, false};
+  if (mesh.normals.empty()) return all;
+  for (const auto& [b1, b2] : {std::pair(1.0f, 0.0f), std::pair(0.0f, 1.0f)})
+    if (dot(triangle_point(mesh, triangle, b1, b2).ng, n) < 0.0f) all.normals.both = true;
+  return all;
+}
+
 }  // namespace
 
 std::optional<TriangleSurface::View> TriangleSurface::seen_from(Point3 p) const {
@@ -180,6 +192,45 @@ std::optional<PatchSurface::View> PatchSurface::seen_from(Point3 p) const {
 SurfacePoint PatchSurface::View::sample(Vec2 u) const {
   const Vec2T<double> at = seen.sample(u);
   return patch_point(*surface.mesh_, surface.patch_, static_cast<float>(at.x), static_cast<float>(at.y));
+}
+
+// The side of a triangle's normal is that of a linear function of the barycentrics, and so that of its corners where
+// they agree.
+SurfaceBounds TriangleSurface::bounds() const { return triangle_bounds(*mesh_, triangle_); }
+
+SurfaceBounds RectangleSurface::bounds() const {
+  const auto normals = [&](int half) { return DirectionCone{rectangle_->halves[half].ng, 0, false}; };
+  SurfaceBounds all;
+  all.normals = unite(normals(0), normals(1));
+  for (const LightRectangle::Half& half : rectangle_->halves)
+    for (const Point3 p : {half.corner, half.end_x, half.end_y}) all.box.extend(to_double(p));
+  return all;
+}
+
+SurfaceBounds QuadricSurface::bounds() const {
+  SurfaceBounds all{quadric_->bounds(), {}};
+  if (quadric_->part.kind == QuadricPart::Kind::kDisk) all.normals = {quadric_->normal({0, 0, 0}), 0, false};
+  return all;
+}
+
+// The normal dp/du x dp/dv is linear in u and in v, so that those of all points are positive sums of the four at the
+// corners. With normals at the vertices, the side may change anywhere.
+SurfaceBounds PatchSurface::bounds() const {
+  SurfaceBounds all{patch_bounds(*mesh_, patch_), {}};
+  if (!mesh_->normals.empty()) return all;
+  std::optional<DirectionCone> cone;
+  const auto position = [&](size_t i) { return to_double(mesh_->positions[mesh_->patches[patch_][i]]); };
+  for (const bool u : {false, true})
+    for (const bool v : {false, true}) {
+      const Vec3d along_u = position(v ? 3 : 1) - position(v ? 2 : 0);
+      const Vec3d along_v = position(u ? 3 : 2) - position(u ? 1 : 0);
+      const Vec3d n = cross(along_u, along_v) * (mesh_->flip_ng ? -1.0 : 1.0);
+      if (!(dot(n, n) > 0)) continue;
+      const DirectionCone corner{to_float(normalize(n)), 0, false};
+      cone = cone ? unite(*cone, corner) : corner;
+    }
+  if (cone && cone->spread < 0.5f * kPi) all.normals = *cone;
+  return all;
 }
 
 }  // namespace etd

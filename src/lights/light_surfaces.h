@@ -6,11 +6,18 @@
 #include <optional>
 
 #include "core/solid_angle.h"
+#include "lights/light_bounds.h"
 #include "shapes/patch.h"
 #include "shapes/quadric.h"
 #include "shapes/triangle.h"
 
 namespace etd {
+
+// The points of a surface and their geometric normals.
+struct SurfaceBounds {
+  Bounds3 box;
+  DirectionCone normals;
+};
 
 // Below this solid angle sampling by area is as good, and the differences of angles are not.
 inline constexpr double kSmallSolidAngle = 1e-5;
@@ -27,6 +34,7 @@ class TriangleSurface {
     return sample_triangle(*mesh_, triangle_, u);
   }
   float pdf_area(const SurfacePoint&) const { return 1.0f / area_; }
+  SurfaceBounds bounds() const;
 
   // The surface as p sees it; nothing where sampling by area is to be used.
   struct View {
@@ -72,6 +80,7 @@ class RectangleSurface {
     return point({u.x, u.y});
   }
   float pdf_area(const SurfacePoint&) const { return 1.0f / area(); }
+  SurfaceBounds bounds() const;
 
   struct View {
     const RectangleSurface& surface;
@@ -100,6 +109,7 @@ class QuadricSurface {
     return s;
   }
   float pdf_area(const SurfacePoint& s) const { return quadric_pdf_area(*quadric_, quadric_->unit_point(s.p)); }
+  SurfaceBounds bounds() const;
 
   struct View {
     const QuadricSurface& surface;
@@ -127,6 +137,7 @@ class PatchSurface {
     return s;
   }
   float pdf_area(const SurfacePoint& s) const { return patch_pdf_area(*mesh_, patch_, s.parameters); }
+  SurfaceBounds bounds() const;
 
   struct View {
     const PatchSurface& surface;

@@ -56,4 +56,30 @@ float Light::pdf_moving(Point3 p, Vec3 wi, const SurfacePoint* on_light, const S
   return pdf * solid_angle_stretch(at, wi);
 }
 
+// A normal turns like the space if that keeps its shape; between two keys it is within half of the step's angle of
+// where it is at one of them, or at the first or last time.
+LightBounds Light::bounds_moving(const LightBounds& still, float start, float end) const {
+  LightBounds b = still;
+  b.intensity *= power_scale_;
+  b.box = motion_->swept(still.box, start, end);
+  if (!motion_->is_rigid()) {
+    b.cone = {still.cone.axis, kPi, still.cone.both};
+    return b;
+  }
+  const auto [first, last] = motion_->keys_between(start, end);
+  const auto steps = static_cast<float>(motion_->keys().size() - 1);
+  std::optional<DirectionCone> cone;
+  double step = 0;
+  for (size_t k = first; k <= last; ++k) {
+    DirectionCone then = still.cone;
+    then.axis = normalize(
+        to_float(motion_->at(clamp(static_cast<float>(k) / steps, start, end)).vector(to_double(still.cone.axis))));
+    cone = cone ? unite(*cone, then) : then;
+    if (k < last) step = std::max(step, motion_->turn(k));
+  }
+  b.cone = *cone;
+  b.cone.spread = std::min(b.cone.spread + 0.5f * static_cast<float>(step) + 1e-4f, kPi);
+  return b;
+}
+
 }  // namespace etd

@@ -27,6 +27,7 @@ struct IsotropicIntensity {
   std::optional<Vec3> sample(Vec2 u) const { return sample_sphere_uniform(u); }
   float pdf(Vec3) const { return pdf_sphere_uniform(); }
   Spectrum power() const { return value * (4.0f * kPi); }
+  void bound(LightBounds& b) const { b.intensity = luminance(value); }
 };
 
 }  // namespace etd

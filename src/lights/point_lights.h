@@ -10,7 +10,7 @@ namespace etd {
 
 // Intensity: Spectrum intensity(Vec3 w, const ShadingContext&) in W/sr along the unit direction w in the world,
 // Spectrum power() in W; std::optional<Vec3> sample(Vec2 u), a unit direction or nothing of a black light, and float
-// pdf(Vec3 w), its density.
+// pdf(Vec3 w), its density; void bound(LightBounds&) const, which sets all but the box.
 template <class Intensity>
 struct PointLight {
   Point3 position;
@@ -63,6 +63,12 @@ struct PointLight {
     return {1.0f, emission.pdf(to_own(w, at))};
   }
   Spectrum power() const { return emission.power(); }
+  std::optional<LightBounds> bounds() const {
+    LightBounds b;
+    b.box.extend(to_double(position));
+    emission.bound(b);
+    return b;
+  }
 
  private:
   static Vec3 to_own(Vec3 w, const Placement* at) { return at ? normalize(at->to_object.vector(w)) : w; }

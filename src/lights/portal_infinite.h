@@ -61,6 +61,7 @@ struct PortalInfiniteLight {
   }
   // What comes in through the portal.
   Spectrum power() const { return map->flux() * scale; }
+  static std::optional<LightBounds> bounds() { return {}; }
 
  private:
   float pdf_position() const { return 1.0f / (map->portal().width * map->portal().height); }

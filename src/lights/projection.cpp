@@ -104,4 +104,11 @@ Spectrum ProjectionIntensity::power() const {
   return Spectrum::rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
 }
 
+// The cone around the corners; the mean over the image has to do for its intensity.
+void ProjectionIntensity::bound(LightBounds& b) const {
+  b.cone = {axes.z, std::atan(std::hypot(half_x, half_y)), false};
+  b.fall = 0;
+  b.intensity = luminance(power()) / static_cast<float>(4.0 * solid_angle_to(half_x, half_y));
+}
+
 }  // namespace etd

@@ -40,6 +40,7 @@ struct ProjectionIntensity {
   std::optional<Vec3> sample(Vec2 u) const;
   float pdf(Vec3 w) const;
   Spectrum power() const;
+  void bound(LightBounds& b) const;
 
  private:
   struct Cell {

@@ -74,6 +74,12 @@ struct SpotIntensity {
   float pdf(Vec3 w) const { return dot(w, axis) > cos_outer ? 0.5f * kInvPi / (1.0f - cos_outer) : 0.0f; }
   // The step's mean is 1/2.
   Spectrum power() const { return value * (2.0f * kPi * (1.0f - 0.5f * (cos_inner + cos_outer))); }
+  void bound(LightBounds& b) const {
+    const float inner = std::acos(clamp(cos_inner, -1.0f, 1.0f));
+    b.cone = {axis, inner, false};
+    b.fall = std::acos(clamp(cos_outer, -1.0f, 1.0f)) - inner;
+    b.intensity = luminance(value);
+  }
 };
 
 }  // namespace etd

@@ -181,6 +181,10 @@ fault(light-choice-probability "the choice of a light is weighted as if it were 
 edit(light_sampling/light_table.h [[return LightChoice{light, table->probability(light)};]]
      [[return LightChoice{light, FAULT ? 1.0f / 2 : table->probability(light)};]])
 
+fault(light-tree-ignores-width "the tree of lights takes a group for a point when it looks which side it is on" "LightTree.*")
+edit(light_sampling/light_tree.cpp [[safe_sqrt(1.0f - sqr(cos_normal)), cos_ball, sin_ball);]]
+     [[safe_sqrt(1.0f - sqr(cos_normal)), FAULT ? 1.0f : cos_ball, FAULT ? 0.0f : sin_ball);]])
+
 fault(lights-of-objects-in-place "lights of objects shine where they are described, not where instances put them" "Kinds/ObjectLight.*")
 edit(scene/place_lights.cpp [[places.push_back(to_world);]] [[places.push_back(FAULT ? TransformPath() : to_world);]])
 

@@ -75,14 +75,14 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 }
 
 // Those of pbrt that are not ours.
-constexpr std::string_view kLightSamplers[] = {"bvh", "exhaustive"};
+constexpr std::string_view kLightSamplers[] = {"exhaustive"};
 
 // What the path integrator of pbrt has beside its depth.
 void read_path_params(Parser& p, ModelUse& use) {
   const ModelDecl* decl = find_any_model(Family::kIntegrator, "path");
   const auto foreign = [&](const Param& param) {
     if (param.name == "lightsampler" && param.strings.size() == 1 && contains(kLightSamplers, param.strings[0])) {
-      p.diagnostics.note(param.loc, fmt::format("lights are chosen by their power, not by \"{}\"", param.strings[0]));
+      p.diagnostics.note(param.loc, fmt::format("lights are chosen as is usual here, not by \"{}\"", param.strings[0]));
       return true;
     }
     if (decl && decl->find(param.name)) return false;

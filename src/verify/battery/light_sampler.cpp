@@ -1,7 +1,9 @@
-// The battery over light samplers: each light as often as its probability says, no light that emits left out.
+// The battery over light samplers: each light as often as its probability says, no light that may reach left out.
 #include "light_sampling/light_sampler.h"
 
 #include <fmt/format.h>
+
+#include <iterator>
 
 #include "light_sampling/light_sampler_list.h"
 #include "lights/examples.h"
@@ -29,6 +31,23 @@ LightReceiver receiver(Point3 p, Vec3 n, float time) {
   return {s, time};
 }
 
+LightReceiver opaque_receiver(Point3 p, Vec3 n, float time) {
+  LightReceiver r = receiver(p, n, time);
+  r.both_sides = false;
+  return r;
+}
+
+// Whether one of the light's samples brings light to the receiver.
+bool reaches(const Light& light, const LightReceiver& r) {
+  constexpr int kSide = 8;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Vec2 u{(static_cast<float>(i % kSide) + 0.5f) / kSide, (static_cast<float>(i / kSide) + 0.5f) / kSide};
+    const auto s = light.sample_li(r.p, u, {r.time});
+    if (s && (r.both_sides || dot(s->wi, r.n) > 0.0f)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 LightChoiceModel light_choice_model(const std::string& name) {
@@ -50,8 +69,11 @@ std::vector<CheckResult> check_light_choice(const LightChoiceModel& m) {
   const std::vector<Light>& lights = example_lights();
   constexpr int kSteps = 1 << 20;
   const LightReceiver somewhere[] = {receiver({0.2f, -0.4f, 3}, {0.3f, 0.1f, -1}, 0.25f),
-                                     receiver({-40, 2, 9}, {0, 0, 1}, 0.75f)};
-  for (const LightReceiver* r : {static_cast<const LightReceiver*>(nullptr), &somewhere[0], &somewhere[1]}) {
+                                     receiver({-40, 2, 9}, {0, 0, 1}, 0.75f),
+                                     opaque_receiver({0.4f, 0.3f, -0.2f}, {1, -2, 0.3f}, 0.1f),
+                                     opaque_receiver({1.5f, -1, 0.4f}, {0.2f, 1, 0.1f}, 0.6f)};
+  for (int k = -1; k < static_cast<int>(std::size(somewhere)); ++k) {
+    const LightReceiver* r = k < 0 ? nullptr : &somewhere[k];
     std::vector<double> share(lights.size(), 0.0);
     for (int i = 0; i < kSteps; ++i) {
       const auto c = m.sample((i + 0.5) / kSteps, r);
@@ -65,7 +87,8 @@ std::vector<CheckResult> check_light_choice(const LightChoiceModel& m) {
       const double p = m.probability(i, r);
       shares.add(std::abs(share[i] - p), where);
       if (!m.law.empty()) law.add(std::abs(p - m.law[i]), where);
-      complete.add(p > 0.0 || luminance(lights[i].power()) == 0.0f ? 0.0 : 1.0, where);
+      const bool needed = r ? reaches(lights[i], *r) : luminance(lights[i].power()) > 0.0f;
+      complete.add(p > 0.0 || !needed ? 0.0 : 1.0, where);
     }
   }
   std::vector<CheckResult> results{shares.result(), told.result(), complete.result()};
