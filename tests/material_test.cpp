@@ -7,12 +7,16 @@
 #include "bsdfs/bsdf_list.h"
 #include "core/warp.h"
 #include "materials/bent_normal.h"
+#include "materials/material_data.h"
 #include "materials/surface_scatter.h"
 #include "model_uses.h"
 #include "temp_folder.h"
 
 namespace etd {
 namespace {
+
+// Outlives all closures.
+MaterialData data;
 
 // The closure of a checked material without textures.
 Bsdf closure(const ModelUse& use) {
@@ -21,7 +25,7 @@ Bsdf closure(const ModelUse& use) {
     if (decl->name == use.model) check_params(*decl, use, diagnostics);
   TextureTable table;
   TextureBuilder builder(table, {});
-  const auto material = make_material(use, builder, diagnostics);
+  const auto material = make_material(use, builder, data, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   return material->closure({}, table, {});
 }
@@ -30,7 +34,7 @@ int errors_of(const ModelUse& use) {
   Diagnostics diagnostics;
   TextureTable table;
   TextureBuilder builder(table, {});
-  make_material(use, builder, diagnostics);
+  make_material(use, builder, data, diagnostics);
   return diagnostics.error_count();
 }
 
@@ -108,7 +112,8 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   TextureBuilder builder(table, folder.path());
   builder.add("bright", false, use_of("imagemap", {text("filename", "bright.pfm")}), Transform(), diagnostics);
   builder.load_images({}, diagnostics);
-  const auto material = make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, diagnostics);
+  const auto material =
+      make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, data, diagnostics);
   ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   const Spectrum albedo = material->closure({}, table, {}).albedo(kUp);
   EXPECT_EQ(albedo[0], 1.0f);
@@ -121,7 +126,7 @@ TEST(Materials, InterfaceIsNone) {
   Diagnostics diagnostics;
   TextureTable table;
   TextureBuilder builder(table, {});
-  EXPECT_FALSE(make_material(use_of("interface"), builder, diagnostics));
+  EXPECT_FALSE(make_material(use_of("interface"), builder, data, diagnostics));
   EXPECT_EQ(errors_of(use_of("diffuse", {texture("reflectance", "nowhere")})), 1);
 }
 

@@ -37,13 +37,18 @@ namespace {
 
 // Nothing of a model that is no surface.
 template <class T>
-std::optional<Material> make(const ParamReader& params, TextureBuilder& textures, const MaterialNames& names) {
+std::optional<Material> make(const ParamReader& params, TextureBuilder& textures, MaterialData& data,
+                             const MaterialNames& names) {
+  const auto detailed = [&](Material material) {
+    material.detail = SurfaceDetail::create(params, textures);
+    return material;
+  };
   if constexpr (requires { T::create(params, textures, names); }) {
     return Material(T::create(params, textures, names));  // of other materials, which have their own detail
   } else if constexpr (requires { T::create(params, textures); }) {
-    Material material(T::create(params, textures));
-    material.detail = SurfaceDetail::create(params, textures);
-    return material;
+    return detailed(Material(T::create(params, textures)));
+  } else if constexpr (requires { T::create(params, textures, data); }) {
+    return detailed(Material(T::create(params, textures, data)));
   } else {
     return {};
   }
@@ -51,11 +56,11 @@ std::optional<Material> make(const ParamReader& params, TextureBuilder& textures
 
 }  // namespace
 
-std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
-                                      const MaterialNames& names) {
+std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, MaterialData& data,
+                                      Diagnostics& diagnostics, const MaterialNames& names) {
   std::optional<Material> material;
   const auto made = [&]<class T>(std::type_identity<T>, const ParamReader& p) {
-    material = make<T>(p, textures, names);
+    material = make<T>(p, textures, data, names);
   };
   if (!with_model(Materials{}, use, diagnostics, made))
     made(std::type_identity<DiffuseMaterial>(), {DiffuseMaterial::decl(), use, diagnostics});
