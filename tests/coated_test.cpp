@@ -40,19 +40,18 @@ double entering_by_normals(double eta, double alpha, double thickness, double co
   const auto lambda = [alpha](double z) { return 0.5 * (std::sqrt(1 + alpha * alpha * (1 - z * z) / (z * z)) - 1); };
   const auto of_azimuth = [&](double phi) {
     const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
-    // Normals up to those at a right angle to wo, by v = sin^2 of the angle whose tangent is tan(h) / alpha.
+    // Normals up to those at a right angle to wo, whose slopes are alpha sqrt(1 - t^2) / t.
     const double most = cos_phi < 0 ? -cosine / (wo.x * cos_phi) / alpha : HUGE_VAL;
-    const double v_most = std::isfinite(most) ? most * most / (1 + most * most) : 1;
-    return integrate(0, v_most, 160, [&](double v) {
-      const double tan_h = alpha * std::sqrt(v / (1 - v)), hz = 1 / std::sqrt(1 + tan_h * tan_h), hr = tan_h * hz;
+    return integrate(1 / std::sqrt(1 + most * most), 1, 100, [&](double t) {
+      const double slope = alpha * std::sqrt(1 - t * t) / t, hz = 1 / std::sqrt(1 + slope * slope), hr = slope * hz;
       const Vec3d h{hr * cos_phi, hr * sin_phi, hz};
       const double c = dot(wo, h);
       if (!(c > 0)) return 0.0;
       const double reflectance = fresnel_dielectric(static_cast<float>(c), static_cast<float>(eta)).reflectance;
-      const double t = std::sqrt(1 - (1 - c * c) / (eta * eta)), mu = -(hz * (c / eta - t) - cosine / eta);
+      const double cos_t = std::sqrt(1 - (1 - c * c) / (eta * eta)), mu = hz * (cos_t - c / eta) + cosine / eta;
       if (!(mu > 0)) return 0.0;
       const double g2 = 1 / (1 + lambda(cosine) + lambda(std::min(mu, 1.0)));
-      return c / hz * (1 - reflectance) * g2 * std::exp(-thickness / mu);
+      return 2 * t * c / hz * (1 - reflectance) * g2 * std::exp(-thickness / mu);
     });
   };
   const double integral =
@@ -69,7 +68,7 @@ TEST(CoatTable, LightThatEnters) {
         for (const double cosine : {1e-3, 0.013, 0.08, 0.3, 0.7, 0.98, 1.0}) {
           const double expected = entering_by_normals(eta, alpha, thickness, cosine);
           const double tolerance = 1e-3 * (thickness <= 1 ? expected : straight);
-          EXPECT_NEAR(table.entering(static_cast<float>(cosine)), expected, tolerance)
+          EXPECT_NEAR(table.shares(static_cast<float>(cosine)).entering, expected, tolerance)
               << eta << ' ' << alpha << ' ' << thickness << ' ' << cosine;
         }
       }
@@ -138,7 +137,8 @@ TEST(CoatTable, LightThatTheCoatReflects) {
           return s ? 2 * x * static_cast<double>(s->weight[0]) : 0.0;
         });
       });
-      EXPECT_NEAR(table.reflected(static_cast<float>(cosine)), expected, 0.05 * expected) << alpha << ' ' << cosine;
+      EXPECT_NEAR(table.shares(static_cast<float>(cosine)).reflected, expected, 0.05 * expected)
+          << alpha << ' ' << cosine;
     }
 }
 
@@ -230,7 +230,8 @@ constexpr int kComparisons = 240;
 // One false alarm in 10^4 seeds.
 TEST(CoatedLambert, IsTheMeanOfTheWalk) { worst_agreement(kComparisons, 1); }
 
-// Counted once: no alarm in 100 seeds.
+// Counted once: no alarm in 100 seeds, and for 2 of them the least p-value times the number of comparisons is below 0.1
+// (what the table may be off makes them conservative).
 TEST(SlowCoatedLambert, IsTheMeanOfTheWalkForAHundredSeeds) {
   int below = 0;
   for (uint64_t seed = 1; seed <= 100; ++seed) below += worst_agreement(kComparisons, seed) < 0.1;

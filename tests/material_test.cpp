@@ -122,6 +122,42 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   EXPECT_EQ(closure(use_of("diffuse")).albedo(kUp)[0], 0.5f);
 }
 
+// Coats have closed forms where they only absorb and are the same everywhere and in all directions.
+TEST(CoatedMaterials, ClosedFormOrWalk) {
+  const auto walks = [](const std::string& model, const std::vector<Param>& params) {
+    return closure(use_of(model, params)).traits().stochastic;
+  };
+  EXPECT_FALSE(walks("coateddiffuse", {}));
+  EXPECT_FALSE(walks("coateddiffuse", {number("roughness", 0.04)}));
+  EXPECT_FALSE(walks("coateddiffuse", {number("eta", 0.7), number("thickness", 3)}));
+  EXPECT_FALSE(walks("coatedconductor", {}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("albedo", 0.5)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("uroughness", 0.04), number("vroughness", 0.09)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("roughness", 0.04), number("eta", 0.7)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("roughness", 4)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("eta", 1e-30)}));
+  EXPECT_TRUE(walks("coatedconductor", {number("conductor.roughness", 0.04)}));
+  EXPECT_TRUE(walks("coatedconductor", {number("albedo", 0.5)}));
+
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, {});
+  builder.add("stripes", true, use_of("checkerboard"), Transform(), diagnostics);
+  for (const char* name : {"thickness", "roughness"})
+    EXPECT_TRUE(make_material(use_of("coateddiffuse", {texture(name, "stripes")}), builder, data, diagnostics)
+                    ->closure({}, table, {})
+                    .traits()
+                    .stochastic);
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
+}
+
+TEST(CoatedMaterials, ShareTables) {
+  const size_t before = data.coats.size();
+  for (const double paint : {0.2, 0.7})
+    closure(use_of("coateddiffuse", {number("roughness", 0.123), number("reflectance", paint)}));
+  EXPECT_EQ(data.coats.size(), before + 1);
+}
+
 TEST(Materials, InterfaceIsNone) {
   Diagnostics diagnostics;
   TextureTable table;

@@ -126,7 +126,7 @@ CoatTable::CoatTable(float eta, float alpha, float thickness)
   }
   double entering = 0;
   for (const auto& [mu, weight] : cosines_with_edge(0.0, 24))
-    entering += 2 * mu * weight * static_cast<double>(this->entering(static_cast<float>(mu)));
+    entering += 2 * mu * weight * static_cast<double>(shares(static_cast<float>(mu)).entering);
   means_ = {static_cast<float>(rough_returned_share(boundary_, thickness)), static_cast<float>(entering)};
 }
 
@@ -135,14 +135,18 @@ float CoatTable::cosine_of(int node) const {
   return v * (2.0f - v);
 }
 
-// Cubic through the four nodes around (Lagrange).
-float CoatTable::interpolate(const Nodes& nodes, float cosine) const {
-  const float v = cosine / (1.0f + safe_sqrt(1.0f - cosine)), x = std::asinh(v / width_) * nodes_per_unit_;
+CoatShares CoatTable::shares(float cosine) const {
+  const float v = cosine / (1.0f + safe_sqrt(1.0f - cosine)), q = v / width_;
+  const float x = std::log(q + std::sqrt(q * q + 1.0f)) * nodes_per_unit_;  // asinh
   const int first = std::clamp(static_cast<int>(x) - 1, 0, kCells - 3);
+  // The cubic through the four nodes around (Lagrange).
   const float t = x - static_cast<float>(first), a = t - 1.0f, b = t - 2.0f, c = t - 3.0f;
-  const float* y = nodes.data() + first;
-  const float value = (t * b * c * y[1] - t * a * c * y[2]) * 0.5f + (t * a * b * y[3] - a * b * c * y[0]) / 6.0f;
-  return std::max(value, 0.0f);
+  const auto interpolate = [&](const Nodes& nodes) {
+    const float* y = nodes.data() + first;
+    const float value = (t * b * c * y[1] - t * a * c * y[2]) * 0.5f + (t * a * b * y[3] - a * b * c * y[0]) / 6.0f;
+    return std::max(value, 0.0f);
+  };
+  return {interpolate(reflected_), interpolate(entering_)};
 }
 
 const CoatTable* CoatTables::find(float eta, float alpha, float thickness) {

@@ -22,7 +22,13 @@ struct CoatMeans {
   float entering = 0;  // of light from outside: what the base receives
 };
 
-// Those of a smooth coat; errors are below 1e-5.
+// Shares of light from outside at one cosine.
+struct CoatShares {
+  float reflected = 0;  // by the coat
+  float entering = 0;   // what the base receives
+};
+
+// The means of a smooth coat; errors are below 1e-5.
 CoatMeans smooth_coat_means(float eta, float thickness);
 
 // The same of a rough isotropic coat, with what depends on the direction.
@@ -36,16 +42,14 @@ class CoatTable {
   const RoughDielectric& boundary() const { return boundary_; }
   // `returned` has errors below 1e-3 / (1 - returned), which makes 1e-3 of the sum over all reflections.
   const CoatMeans& means() const { return means_; }
-  // The share of the light from outside, at a cosine in [0, 1], that the base receives. Up to a thickness of 1 the
-  // error is below 1e-3 of it, and in thicker coats below 1e-3 of the share at normal incidence.
-  float entering(float cosine) const { return interpolate(entering_, cosine); }
-  // The share that the coat reflects, within 5 %: enough to choose lobes by it.
-  float reflected(float cosine) const { return interpolate(reflected_, cosine); }
+  // Of light from outside at a cosine in [0, 1]. Up to a thickness of 1 the error of what enters is below 1e-3 of it,
+  // and in thicker coats below 1e-3 of what enters at normal incidence. What is reflected is right within 5 %: enough
+  // to choose lobes by it.
+  CoatShares shares(float cosine) const;
 
  private:
   static constexpr int kCells = 96;
   using Nodes = std::array<float, kCells + 1>;
-  float interpolate(const Nodes& nodes, float cosine) const;
   float cosine_of(int node) const;
 
   RoughDielectric boundary_;

@@ -18,10 +18,9 @@ struct SmoothCoat {
   CoatMeans means_of;  // those of this coat
 
   const CoatMeans& means() const { return means_of; }
-  float reflected(float cosine) const { return fresnel_dielectric(cosine, boundary.eta).reflectance; }
-  float entering(float cosine) const {
+  CoatShares shares(float cosine) const {
     const auto [reflectance, cos_t] = fresnel_dielectric(cosine, boundary.eta);
-    return cos_t > 0.0f ? (1.0f - reflectance) * coat_transmittance(thickness, cos_t) : 0.0f;
+    return {reflectance, cos_t > 0.0f ? (1.0f - reflectance) * coat_transmittance(thickness, cos_t) : 0.0f};
   }
 };
 
@@ -30,8 +29,7 @@ struct RoughCoat {
   const CoatTable* table;  // that of this coat
 
   const CoatMeans& means() const { return table->means(); }
-  float reflected(float cosine) const { return table->reflected(cosine); }
-  float entering(float cosine) const { return table->entering(cosine); }
+  CoatShares shares(float cosine) const { return table->shares(cosine); }
 };
 
 // Both sides of the whole are alike.
@@ -49,27 +47,23 @@ struct CoatedLambert {
 
   Spectrum eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
     if (!same_hemisphere(wo, wi)) return Spectrum();
-    wo = upper(wo), wi = upper(wi);
-    return coat.boundary.eval_cos(wo, wi, mode, rng) +
-           base * (coat.entering(cosine(wo)) * coat.entering(cosine(wi)) * pdf_hemisphere_cosine(wi.z));
+    return value(shares(wo).entering, upper(wo), upper(wi), mode, rng);
   }
 
   float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides) const {
     if (!(sides & kReflection) || !same_hemisphere(wo, wi)) return 0.0f;
-    wo = upper(wo), wi = upper(wi);
-    const float p = coat_probability(cosine(wo));
-    return p * coat.boundary.pdf(wo, wi, mode, kReflection) + (1.0f - p) * pdf_hemisphere_cosine(wi.z);
+    return density(coat_probability(shares(wo)), upper(wo), upper(wi), mode);
   }
 
   // The coat's lobe or a cosine, in proportion to what they reflect.
   std::optional<BsdfSample> sample(Vec3 wo, Vec3 u, TransportMode mode, HashStream& rng, Lobe sides) const {
     if (!(sides & kReflection) || wo.z == 0.0f) return {};
-    const bool flipped = wo.z < 0.0f;
-    wo = upper(wo);
-    const float p = coat_probability(cosine(wo));
-    BsdfSample s{{}, {}, 0.0f, smooth_lobe(), 1.0f};
+    const Vec3 up = upper(wo);
+    const CoatShares of_wo = shares(up);
+    const float p = coat_probability(of_wo);
+    BsdfSample s;
     if (u.z < p) {
-      const auto reflection = coat.boundary.sample(wo, {u.x, u.y, 0.5f}, mode, rng, kReflection);
+      const auto reflection = coat.boundary.sample(up, {u.x, u.y, 0.5f}, mode, rng, kReflection);
       if (!reflection) return {};
       s = *reflection;
     } else {
@@ -81,11 +75,11 @@ struct CoatedLambert {
       s.pdf = p;
     } else {
       s.lobe = smooth_lobe();
-      s.pdf = pdf(wo, s.wi, mode, sides);
+      s.pdf = density(p, up, s.wi, mode);
       if (!(s.pdf > 0.0f)) return {};
-      s.weight = eval_cos(wo, s.wi, mode, rng) / s.pdf;
+      s.weight = value(of_wo.entering, up, s.wi, mode, rng) / s.pdf;
     }
-    if (flipped) s.wi.z = -s.wi.z;
+    if (wo.z < 0.0f) s.wi.z = -s.wi.z;
     return s;
   }
 
@@ -98,20 +92,27 @@ struct CoatedLambert {
   }
   float widest_alpha() const { return is_black(base) ? coat.boundary.widest_alpha() : 1.0f; }
   Spectrum albedo(Vec3 wo) const {
-    const float mu = cosine(upper(wo));
-    return Spectrum(coat.reflected(mu)) + base * (coat.entering(mu) * coat.means().entering);
+    const CoatShares of_wo = shares(wo);
+    return Spectrum(of_wo.reflected) + base * (of_wo.entering * coat.means().entering);
   }
 
  private:
   static Vec3 upper(Vec3 w) { return {w.x, w.y, std::abs(w.z)}; }
-  static float cosine(Vec3 up) { return std::min(up.z, 1.0f); }
+  CoatShares shares(Vec3 w) const { return coat.shares(std::min(std::abs(w.z), 1.0f)); }
   // All that has a density is one lobe.
   Lobe smooth_lobe() const { return kReflection | (is_black(base) ? kGlossy : kDiffuse); }
 
-  float coat_probability(float mu) const {
-    const float above = coat.reflected(mu);
-    const float below = mean_value(base) * coat.entering(mu) * coat.means().entering;
-    return below > 0.0f ? above / (above + below) : 1.0f;
+  // Both directions are above.
+  Spectrum value(float entering, Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const {
+    return coat.boundary.eval_cos(wo, wi, mode, rng) +
+           base * (entering * shares(wi).entering * pdf_hemisphere_cosine(wi.z));
+  }
+  float density(float p, Vec3 wo, Vec3 wi, TransportMode mode) const {
+    return p * coat.boundary.pdf(wo, wi, mode, kReflection) + (1.0f - p) * pdf_hemisphere_cosine(wi.z);
+  }
+  float coat_probability(const CoatShares& of_wo) const {
+    const float below = mean_value(base) * of_wo.entering * coat.means().entering;
+    return below > 0.0f ? of_wo.reflected / (of_wo.reflected + below) : 1.0f;
   }
 
   // 1 + x + ... + x^(n - 1), n >= 1, by the binary digits of n: the sums of m and of 2 m terms differ by the factor

@@ -116,7 +116,8 @@ CoatedDiffuseMaterial CoatedDiffuseMaterial::create(const ParamReader& p, Textur
   CoatedDiffuseMaterial m{b.spectrum(p, "reflectance"), CoatSource::create(p, b, ""), p.boolean("remaproughness"), {}};
   const CoatSource& c = m.coat;
   const bool constant = c.thickness.texture < 0 && c.roughness.u.texture < 0 && c.roughness.v.texture < 0;
-  if (!constant || !c.only_absorbs()) return m;
+  constexpr float kLeastIndex = 0.1f;  // below, 1 / eta^2 can overflow
+  if (!constant || !c.only_absorbs() || c.eta < kLeastIndex) return m;
   const float thickness = coat_thickness(c.thickness.value);
   const auto alpha = microfacet_alpha(c.roughness.u.value, c.roughness.v.value, m.remap);
   if (!alpha || c.eta == 1.0f)
