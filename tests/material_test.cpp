@@ -7,12 +7,16 @@
 #include "bsdfs/bsdf_list.h"
 #include "core/warp.h"
 #include "materials/bent_normal.h"
+#include "materials/material_data.h"
 #include "materials/surface_scatter.h"
 #include "model_uses.h"
 #include "temp_folder.h"
 
 namespace etd {
 namespace {
+
+// Outlives all closures.
+MaterialData data;
 
 // The closure of a checked material without textures.
 Bsdf closure(const ModelUse& use) {
@@ -21,7 +25,7 @@ Bsdf closure(const ModelUse& use) {
     if (decl->name == use.model) check_params(*decl, use, diagnostics);
   TextureTable table;
   TextureBuilder builder(table, {});
-  const auto material = make_material(use, builder, diagnostics);
+  const auto material = make_material(use, builder, data, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   return material->closure({}, table, {});
 }
@@ -30,7 +34,7 @@ int errors_of(const ModelUse& use) {
   Diagnostics diagnostics;
   TextureTable table;
   TextureBuilder builder(table, {});
-  make_material(use, builder, diagnostics);
+  make_material(use, builder, data, diagnostics);
   return diagnostics.error_count();
 }
 
@@ -108,7 +112,8 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   TextureBuilder builder(table, folder.path());
   builder.add("bright", false, use_of("imagemap", {text("filename", "bright.pfm")}), Transform(), diagnostics);
   builder.load_images({}, diagnostics);
-  const auto material = make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, diagnostics);
+  const auto material =
+      make_material(use_of("diffuse", {texture("reflectance", "bright")}), builder, data, diagnostics);
   ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
   const Spectrum albedo = material->closure({}, table, {}).albedo(kUp);
   EXPECT_EQ(albedo[0], 1.0f);
@@ -117,11 +122,47 @@ TEST(DiffuseMaterial, TexturesAreClampedToAlbedos) {
   EXPECT_EQ(closure(use_of("diffuse")).albedo(kUp)[0], 0.5f);
 }
 
+// Coats have closed forms where they only absorb and are the same everywhere and in all directions.
+TEST(CoatedMaterials, ClosedFormOrWalk) {
+  const auto walks = [](const std::string& model, const std::vector<Param>& params) {
+    return closure(use_of(model, params)).traits().stochastic;
+  };
+  EXPECT_FALSE(walks("coateddiffuse", {}));
+  EXPECT_FALSE(walks("coateddiffuse", {number("roughness", 0.04)}));
+  EXPECT_FALSE(walks("coateddiffuse", {number("eta", 0.7), number("thickness", 3)}));
+  EXPECT_FALSE(walks("coatedconductor", {}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("albedo", 0.5)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("uroughness", 0.04), number("vroughness", 0.09)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("roughness", 0.04), number("eta", 0.7)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("roughness", 4)}));
+  EXPECT_TRUE(walks("coateddiffuse", {number("eta", 1e-30)}));
+  EXPECT_TRUE(walks("coatedconductor", {number("conductor.roughness", 0.04)}));
+  EXPECT_TRUE(walks("coatedconductor", {number("albedo", 0.5)}));
+
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, {});
+  builder.add("stripes", true, use_of("checkerboard"), Transform(), diagnostics);
+  for (const char* name : {"thickness", "roughness"})
+    EXPECT_TRUE(make_material(use_of("coateddiffuse", {texture(name, "stripes")}), builder, data, diagnostics)
+                    ->closure({}, table, {})
+                    .traits()
+                    .stochastic);
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.format_all();
+}
+
+TEST(CoatedMaterials, ShareTables) {
+  const size_t before = data.coats.size();
+  for (const double paint : {0.2, 0.7})
+    closure(use_of("coateddiffuse", {number("roughness", 0.123), number("reflectance", paint)}));
+  EXPECT_EQ(data.coats.size(), before + 1);
+}
+
 TEST(Materials, InterfaceIsNone) {
   Diagnostics diagnostics;
   TextureTable table;
   TextureBuilder builder(table, {});
-  EXPECT_FALSE(make_material(use_of("interface"), builder, diagnostics));
+  EXPECT_FALSE(make_material(use_of("interface"), builder, data, diagnostics));
   EXPECT_EQ(errors_of(use_of("diffuse", {texture("reflectance", "nowhere")})), 1);
 }
 

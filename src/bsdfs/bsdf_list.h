@@ -1,6 +1,8 @@
 // The list of closures, for those who make them. To add one: its header, and its name in the list.
 #pragma once
 
+#include "bsdfs/coated_lambert.h"
+#include "bsdfs/coated_mirror.h"
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
 #include "bsdfs/diffuse_transmission.h"
@@ -14,6 +16,7 @@ namespace etd {
 
 using Closures = TypeList<Lambert, SmoothConductor, RoughConductor, SmoothDielectric, RoughDielectric, ThinDielectric,
                           DiffuseTransmission, EnergyCompensated<RoughConductor>, EnergyCompensated<RoughDielectric>,
+                          CoatedLambert<SmoothCoat>, CoatedLambert<RoughCoat>, CoatedMirror,
                           Layered<SmoothDielectric, Lambert>, Layered<RoughDielectric, Lambert>,
                           Layered<SmoothDielectric, SmoothConductor>, Layered<SmoothDielectric, RoughConductor>,
                           Layered<RoughDielectric, SmoothConductor>, Layered<RoughDielectric, RoughConductor>>;

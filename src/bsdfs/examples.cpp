@@ -29,18 +29,47 @@ void add_layered(std::vector<BsdfExample>& list) {
   const Lambert paint{Spectrum::rgb(0.8f, 0.5f, 0.2f)}, white{Spectrum(1.0f)};
   const Spectrum eta = Spectrum::rgb(0.14f, 0.69f, 0.77f), k = Spectrum::rgb(2.3f, 1.73f, 1.67f);  // copper under 1.5
   const SmoothDielectric varnish{1.5f};
-  const RoughDielectric satin{1.5f, {0.3f, 0.3f}}, brushed{1.33f, {0.6f, 0.3f}};
+  const RoughDielectric satin{1.5f, {0.3f, 0.3f}}, brushed{1.33f, {0.6f, 0.3f}}, rare{1 / 1.5f, {0.5f, 0.5f}};
   const RoughConductor rough{eta, k, {0.4f, 0.4f}};
   add_layered(list, "smooth on paint", varnish, paint, clear);
   add_layered(list, "smooth on white, milky", varnish, white, milky);
   add_layered(list, "rough on paint", satin, paint, clear);
   add_layered(list, "rough on white, two samples, depth 3", brushed, white, two);
+  add_layered(list, "rough and of lower index on paint", rare, paint, clear);
   add_layered(list, "rough on paint, milky", satin, paint, milky);
   add_layered(list, "smooth on mirror", varnish, SmoothConductor{eta, k}, clear);
   add_layered(list, "smooth on mirror, milky", varnish, SmoothConductor{eta, k}, milky);
   add_layered(list, "smooth on rough metal", varnish, rough, clear);
   add_layered(list, "rough on mirror", satin, SmoothConductor{eta, k}, clear);
   add_layered(list, "rough on rough metal", satin, rough, milky);
+}
+
+// Closed forms of layers. The last ones have a coat of lower index than what is around, and of that of air.
+void add_coated(std::vector<BsdfExample>& list) {
+  const auto smooth = [&list](const char* name, float eta, float thickness, const Spectrum& paint, int32_t max_depth) {
+    const SmoothCoat coat{{eta}, thickness, smooth_coat_means(eta, thickness)};
+    list.push_back({std::string("coated_lambert(smooth, ") + name + ")", Bsdf(CoatedLambert(coat, paint, max_depth))});
+  };
+  const auto rough = [&list](const char* name, float eta, float alpha, float thickness, const Spectrum& paint,
+                             int32_t max_depth) {
+    static CoatTables tables;
+    const RoughCoat coat{{eta, {alpha, alpha}}, tables.find(eta, alpha, thickness)};
+    list.push_back({std::string("coated_lambert(rough, ") + name + ")", Bsdf(CoatedLambert(coat, paint, max_depth))});
+  };
+  const Spectrum paint = Spectrum::rgb(0.8f, 0.5f, 0.2f), white(1.0f), black(0.0f);
+  smooth("1.5", 1.5f, 0.01f, paint, 10);
+  smooth("1.5, white, no absorption", 1.5f, 1e-20f, white, 1000);
+  list.back().lossless = true;
+  smooth("1.5, black", 1.5f, 0.01f, black, 10);
+  smooth("1/1.5, depth 2", 1.0f / 1.5f, 0.1f, paint, 2);
+  smooth("1", 1.0f, 0.3f, paint, 3);
+  rough("1.5, 0.3", 1.5f, 0.3f, 0.01f, paint, 10);
+  rough("1.33, 0.05, white, depth 100", 1.33f, 0.05f, 0.3f, white, 100);
+  rough("2, 1, depth 1", 2.0f, 1.0f, 1e-20f, paint, 1);
+  rough("1.5, 0.2, black", 1.5f, 0.2f, 0.01f, black, 10);
+  const SmoothConductor copper{Spectrum::rgb(0.14f, 0.69f, 0.77f), Spectrum::rgb(2.3f, 1.73f, 1.67f)};
+  list.push_back({"coated_mirror(1.5)", Bsdf(CoatedMirror{{1.5f}, copper, 0.01f, 10})});
+  list.push_back({"coated_mirror(1/1.5, depth 3)", Bsdf(CoatedMirror{{1.0f / 1.5f}, copper, 0.2f, 3})});
 }
 
 std::vector<BsdfExample> make_examples() {
@@ -114,6 +143,7 @@ std::vector<BsdfExample> make_examples() {
   sheet("0, 0.5", Spectrum(0.0f), Spectrum(0.5f));
   sheet("black", Spectrum(0.0f), Spectrum(0.0f));
   add_layered(list);
+  add_coated(list);
   return list;
 }
 

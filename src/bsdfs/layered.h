@@ -139,9 +139,13 @@ struct Layered {
         mode == TransportMode::kRadiance ? TransportMode::kImportance : TransportMode::kRadiance;
     const auto entry = top.sample(wo, random3(rng), mode, rng, kTransmission);
     const auto exit = top.sample(wi, random3(rng), reverse, rng, kTransmission);
-    if (!entry || !exit || entry->wi.z == 0.0f || exit->wi.z == 0.0f) return Spectrum();
-    const Vec3 to_exit = -exit->wi;  // the direction of the walk that leaves along wi
-    const Spectrum leave = exit->weight * (wi.z / to_exit.z);
+    if (!entry || entry->wi.z == 0.0f) return Spectrum();
+    // Without a direction to connect to, the walk's own exits still count: their weights allow for it.
+    const bool connects = exit && exit->wi.z != 0.0f;
+    if (!connects && kTopDelta) return Spectrum();
+    const Vec3 to_exit = connects ? -exit->wi : Vec3{0, 0, 1};  // the direction of the walk that leaves along wi
+    const Spectrum leave = connects ? exit->weight * (wi.z / to_exit.z) : Spectrum();
+    const float p_exit = connects ? exit->pdf : 0.0f;
     const HenyeyGreenstein phase{layer.g};
 
     Spectrum sum, beta = entry->weight;
@@ -159,7 +163,7 @@ struct Layered {
     for (int depth = 0; depth < layer.max_depth && survives(depth, beta, rng); ++depth) {
       if (advance(z, w, beta, rng)) {
         const float p = phase.p(-w, to_exit);
-        const float weight = kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, exit->pdf, p);
+        const float weight = kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, p_exit, p);
         Spectrum out(p * weight * transmittance(layer.thickness - z, to_exit));
         if (kDeltaOnly) out = with_mirrors(out, phase.p(-w, {to_exit.x, to_exit.y, -to_exit.z}), z, to_exit);
         sum += beta * layer.albedo * leave * out;
@@ -180,7 +184,7 @@ struct Layered {
       }
       if (!kBottomDelta) {
         const float weight =
-            kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, exit->pdf, bottom.pdf(-w, to_exit, mode, kReflection));
+            kTopDelta ? 1.0f : mis_weight(MisHeuristic::kPower, p_exit, bottom.pdf(-w, to_exit, mode, kReflection));
         sum +=
             beta * bottom.eval_cos(-w, to_exit, mode, rng) * leave * (weight * transmittance(layer.thickness, to_exit));
       }

@@ -1,5 +1,7 @@
 #include "materials/coated.h"
 
+#include "bsdfs/coated_lambert.h"
+#include "bsdfs/coated_mirror.h"
 #include "bsdfs/conductor.h"
 #include "bsdfs/dielectric.h"
 #include "bsdfs/lambert.h"
@@ -7,12 +9,15 @@
 #include "bsdfs/rough_dielectric.h"
 #include "bsdfs/roughness.h"
 #include "materials/conductor.h"
+#include "materials/material_data.h"
 
 namespace etd {
 
 namespace {
 // At 1 all light goes straight on, and no density says so.
 constexpr double kMaxMeanCosine = 0.999;
+
+float coat_thickness(float given) { return std::max(given, 1e-20f); }
 }  // namespace
 
 std::vector<ParamDecl> CoatSource::params(const std::string& prefix) {
@@ -44,12 +49,14 @@ std::vector<ParamDecl> CoatSource::params(const std::string& prefix) {
                   .min = 1,
                   .max = 10000,
                   .doc = "Events between the layers after which light is given up, which darkens a little."});
-  list.push_back({.name = "nsamples",
-                  .type = ParamType::kInteger,
-                  .default_value = 1,
-                  .min = 1,
-                  .max = 10000,
-                  .doc = "Random walks between the layers for one value; more is slower and less noisy."});
+  list.push_back(
+      {.name = "nsamples",
+       .type = ParamType::kInteger,
+       .default_value = 1,
+       .min = 1,
+       .max = 10000,
+       .doc = "Random walks between the layers for one value, where there is no closed form; more is slower and "
+              "less noisy."});
   return list;
 }
 
@@ -73,12 +80,16 @@ Bsdf under_coat(const CoatSource& coat, bool remap, const Bottom& bottom, const 
                 const TextureTable& textures, const ShadingContext& context) {
   constexpr auto max_g = static_cast<float>(kMaxMeanCosine);
   const LayerSettings layer{clamp(textures.eval(coat.albedo, at, context), 0.0f, 1.0f),
-                            std::max(textures.eval(coat.thickness, at, context), 1e-20f),
+                            coat_thickness(textures.eval(coat.thickness, at, context)),
                             clamp(textures.eval(coat.g, at, context), -max_g, max_g), coat.max_depth, coat.samples};
   const auto alpha = microfacet_alpha(textures.eval(coat.roughness.u, at, context),
                                       textures.eval(coat.roughness.v, at, context), remap);
-  if (!alpha || coat.eta == 1.0f)
+  if (!alpha || coat.eta == 1.0f) {
+    if constexpr (std::is_same_v<Bottom, SmoothConductor>)
+      if (is_black(layer.albedo))
+        return Bsdf(CoatedMirror{SmoothDielectric{coat.eta}, bottom, layer.thickness, layer.max_depth});
     return Bsdf(Layered<SmoothDielectric, Bottom>{SmoothDielectric{coat.eta}, bottom, layer});
+  }
   return Bsdf(Layered<RoughDielectric, Bottom>{RoughDielectric{coat.eta, {alpha->x, alpha->y}}, bottom, layer});
 }
 
@@ -101,14 +112,30 @@ const ModelDecl& CoatedDiffuseMaterial::decl() {
   return d;
 }
 
-CoatedDiffuseMaterial CoatedDiffuseMaterial::create(const ParamReader& p, TextureBuilder& b) {
-  return {b.spectrum(p, "reflectance"), CoatSource::create(p, b, ""), p.boolean("remaproughness")};
+CoatedDiffuseMaterial CoatedDiffuseMaterial::create(const ParamReader& p, TextureBuilder& b, MaterialData& data) {
+  CoatedDiffuseMaterial m{b.spectrum(p, "reflectance"), CoatSource::create(p, b, ""), p.boolean("remaproughness"), {}};
+  const CoatSource& c = m.coat;
+  const bool constant = c.thickness.texture < 0 && c.roughness.u.texture < 0 && c.roughness.v.texture < 0;
+  constexpr float kLeastIndex = 0.1f;  // below, 1 / eta^2 can overflow
+  if (!constant || !c.only_absorbs() || c.eta < kLeastIndex) return m;
+  const float thickness = coat_thickness(c.thickness.value);
+  const auto alpha = microfacet_alpha(c.roughness.u.value, c.roughness.v.value, m.remap);
+  if (!alpha || c.eta == 1.0f)
+    m.smooth = smooth_coat_means(c.eta, thickness);
+  else if (alpha->x == alpha->y && CoatTable::covers(c.eta, alpha->x))
+    m.rough = data.coats.find(c.eta, alpha->x, thickness);
+  return m;
 }
 
 Bsdf CoatedDiffuseMaterial::closure(const TexCoord& at, const TextureTable& textures,
                                     const ShadingContext& context) const {
-  return under_coat(coat, remap, Lambert{clamp(textures.eval(reflectance, at, context), 0.0f, 1.0f)}, at, textures,
-                    context);
+  const Spectrum paint = clamp(textures.eval(reflectance, at, context), 0.0f, 1.0f);
+  if (smooth) {
+    const SmoothCoat smooth_coat{{coat.eta}, coat_thickness(coat.thickness.value), *smooth};
+    return Bsdf(CoatedLambert(smooth_coat, paint, coat.max_depth));
+  }
+  if (rough) return Bsdf(CoatedLambert(RoughCoat{rough->boundary(), rough}, paint, coat.max_depth));
+  return under_coat(coat, remap, Lambert{paint}, at, textures, context);
 }
 
 const ModelDecl& CoatedConductorMaterial::decl() {

@@ -1,6 +1,9 @@
 // Varnished wood, car paint, lacquered metal: a diffuse surface or a metal under a clear or milky coat.
 #pragma once
 
+#include <optional>
+
+#include "bsdfs/coat_table.h"
 #include "materials/material.h"
 #include "materials/parameters.h"
 
@@ -17,15 +20,22 @@ struct CoatSource {
   // `prefix` is "" or "interface.", before roughness, thickness and eta.
   static std::vector<ParamDecl> params(const std::string& prefix);
   static CoatSource create(const ParamReader& p, TextureBuilder& b, const std::string& prefix);
+
+  // Whether its medium only absorbs, everywhere.
+  bool only_absorbs() const { return albedo.texture < 0 && is_black(albedo.value); }
 };
 
 struct CoatedDiffuseMaterial {
   SpectrumSource reflectance;
   CoatSource coat;
   bool remap = true;
+  // One of them where the closure has a closed form: the coat only absorbs and is the same everywhere and in all
+  // directions.
+  std::optional<CoatMeans> smooth;
+  const CoatTable* rough = nullptr;
 
   static const ModelDecl& decl();
-  static CoatedDiffuseMaterial create(const ParamReader& p, TextureBuilder& b);
+  static CoatedDiffuseMaterial create(const ParamReader& p, TextureBuilder& b, MaterialData& data);
   Bsdf closure(const TexCoord& at, const TextureTable& textures, const ShadingContext& context) const;
 };
 

@@ -42,17 +42,22 @@ namespace {
 
 // Nothing of a model that is no surface.
 template <class T>
-std::optional<Material> make(const ParamReader& params, TextureBuilder& textures, const MaterialNames& names) {
-  if constexpr (requires { T::create(params, textures, names); }) {
-    return Material(T::create(params, textures, names));  // of other materials, which have their own detail
-  } else if constexpr (requires { T::create(params, textures); }) {
-    Material material(T::create(params, textures));
+std::optional<Material> make(const ParamReader& params, TextureBuilder& textures, MaterialData& data,
+                             const MaterialNames& names) {
+  const auto detailed = [&](Material material) {
     material.detail = SurfaceDetail::create(params, textures);
     const auto& given = params.use().params;
     const bool textured =
         std::any_of(given.begin(), given.end(), [](const Param& p) { return p.kind == ParamKind::kTexture; });
     if (!textured && material.detail.normal_map < 0) material.keep_closure();
     return material;
+  };
+  if constexpr (requires { T::create(params, textures, names); }) {
+    return Material(T::create(params, textures, names));  // of other materials, which have their own detail
+  } else if constexpr (requires { T::create(params, textures); }) {
+    return detailed(Material(T::create(params, textures)));
+  } else if constexpr (requires { T::create(params, textures, data); }) {
+    return detailed(Material(T::create(params, textures, data)));
   } else {
     return {};
   }
@@ -60,11 +65,11 @@ std::optional<Material> make(const ParamReader& params, TextureBuilder& textures
 
 }  // namespace
 
-std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
-                                      const MaterialNames& names) {
+std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, MaterialData& data,
+                                      Diagnostics& diagnostics, const MaterialNames& names) {
   std::optional<Material> material;
   const auto made = [&]<class T>(std::type_identity<T>, const ParamReader& p) {
-    material = make<T>(p, textures, names);
+    material = make<T>(p, textures, data, names);
   };
   if (!with_model(Materials{}, use, diagnostics, made))
     made(std::type_identity<DiffuseMaterial>(), {DiffuseMaterial::decl(), use, diagnostics});

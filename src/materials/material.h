@@ -12,6 +12,8 @@
 
 namespace etd {
 
+struct MaterialData;
+
 class Material {
  public:
   template <class T>
@@ -48,8 +50,8 @@ class Material {
 using MaterialNames = std::map<std::string, std::optional<uint32_t>, std::less<>>;
 
 std::span<const ModelDecl* const> material_models();
-// Makes the material of a checked use; nothing for "interface", which is no surface at all.
-std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, Diagnostics& diagnostics,
-                                      const MaterialNames& names = {});
+// Makes the material of a checked use; nothing for "interface", which is no surface at all. `data` must outlive it.
+std::optional<Material> make_material(const ModelUse& use, TextureBuilder& textures, MaterialData& data,
+                                      Diagnostics& diagnostics, const MaterialNames& names = {});
 
 }  // namespace etd

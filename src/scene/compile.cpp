@@ -148,7 +148,7 @@ std::vector<uint32_t> compile_materials(const SceneDescription& description, Tex
     ++info.summary.materials[m.use.model];
   }
   for (const ModelUse* use : uses) {
-    scene.materials.push_back(*make_material(*use, textures, diagnostics, names));
+    scene.materials.push_back(*make_material(*use, textures, scene.material_data, diagnostics, names));
     info.names.materials.push_back(name_item(Family::kMaterial, *use));
   }
   const MaterialMixes check_mixes(scene, uses, diagnostics);

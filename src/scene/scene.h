@@ -13,6 +13,7 @@
 #include "light_sampling/light_sampler.h"
 #include "lights/light_data.h"
 #include "materials/material.h"
+#include "materials/material_data.h"
 
 namespace etd {
 
@@ -87,6 +88,7 @@ class Scene {
   std::vector<SurfaceBinding> mesh_bindings, patch_bindings, quadric_bindings;
   std::vector<uint32_t> instance_objects;  // by instance of `geometry`: index into SceneNames::objects
   std::vector<Material> materials;
+  MaterialData material_data;
   TextureTable textures;
   std::vector<Light> lights;
   std::vector<uint32_t> face_lights;      // of the triangles and patches of emitting meshes, mesh by mesh

@@ -48,6 +48,9 @@ fault(layer-thickness-without-slant "layers absorb the same at every angle" "Lay
 edit(bsdfs/layered.h [[return std::exp(-std::abs(distance / w.z));]]
      [[return std::exp(-std::abs(FAULT ? distance : distance / w.z));]])
 
+fault(coat-base-event-too-many "a coat returns light to its base once more than maxdepth allows" "CoatedLambert.*")
+edit(bsdfs/coated_lambert.h [[(max_depth + 1) / 2)]] [[(max_depth + (FAULT ? 3 : 1)) / 2)]])
+
 fault(phase-sign "the phase function is sampled backwards" "HenyeyGreenstein*:Layered.*:${bsdfs}")
 edit(phase/henyey_greenstein.h [[const float z = clamp(-cosine, -1.0f, 1.0f)]]
      [[const float z = clamp(FAULT ? cosine : -cosine, -1.0f, 1.0f)]])
