@@ -44,12 +44,12 @@ struct Scene {
 const Scene kScenes[] = {{"conductor_box", 320, 64, 64, 128, 128},
                          {"textured_room", 320, 96, 128, 64, 0, 96, 0.01, true},
                          {"sky_instances", 288, 352, 128, 256, 160, 96, 0.05, true},
-                         {"glass_caustic", 320, 128, 128, 128, 0, 0, 0.01, true},
+                         {"glass_caustic", 448, 128, 144, 128, 0, 0, 0.01, true},
                          {"lamps", 512, 352, 512, 256, 0, 256, 0.03, true},
                          {"moving_lamps", 576, 896, 640, 640, 0, 0, 0.03, true},
                          {"window_room", 1024, 160, 320, 128, 0, 0, 0.03, true},
-                         {"bumpy_room", 608, 608, 288, 288, 0, 0, 0.05, true},
-                         {"bumpy_glass", 320, 192, 160, 128}};
+                         {"bumpy_room", 832, 608, 288, 288, 0, 0, 0.05, true},
+                         {"bumpy_glass", 320, 192, 160, 144}};
 
 // All are compared with the first, light with what it can see of it. The slow set leaves nothing out.
 std::vector<Variant> variants(const Scene& s, bool slow = false) {

@@ -259,7 +259,7 @@ TEST(ToyModels, LightSampler) {
   const ParamDecl after = choice_param<PowerLightSampler>(Longer{}, before.name, "Chosen ", ".");
   EXPECT_EQ(after.choices, (std::vector<std::string>{"bvh", "power", "uniform", "toy"}));
   EXPECT_EQ(after.doc,
-            "Chosen by what each may bring to the place, found in a tree of lights, by their power, all alike, or by "
+            "Chosen by a tree of their bounds, by their power, all alike, or by "
             "chance.");
   EXPECT_FALSE(with_named(LightSamplers{}, "toy", [](auto) {}));
   const std::vector<Light> lights(4, Light(ConstantInfiniteLight{Spectrum(1.0f)}));

@@ -8,7 +8,7 @@ namespace etd {
 
 struct BvhLightSampler {
   static constexpr const char* kName = "bvh";
-  static constexpr const char* kDoc = "by what each may bring to the place, found in a tree of lights";
+  static constexpr const char* kDoc = "by a tree of their bounds";
   // Share of the samples that infinite lights get together where finite ones may reach the receiver too.
   static constexpr float kInfiniteShare = 0.5f;
 
