@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bsdfs/bsdf_list.h"
+#include "bsdfs/examples.h"
 #include "core/warp.h"
 #include "materials/bent_normal.h"
 #include "materials/material_data.h"
@@ -312,6 +313,62 @@ TEST(BentNormal, TurnsByTheLeastAngle) {
   }
   EXPECT_GT(bent, 500);
   EXPECT_GT(behind, 300);
+}
+
+// A material is plain where no texture and no tangent matters, and its closure is then the one that it makes.
+TEST(Material, IsPlainWithoutTexturesAndTangents) {
+  TempFolder folder;
+  folder.write("n.pfm", "PF\n1 1\n-1\n" + std::string(12, '\0'));
+  Diagnostics diagnostics;
+  TextureTable table;
+  TextureBuilder builder(table, folder.path());
+  builder.add("stripes", false, use_of("checkerboard"), Transform(), diagnostics);
+  builder.add("bumps", true, use_of("checkerboard"), Transform(), diagnostics);
+  const auto is_plain = [&](const ModelUse& use) {
+    const auto material = make_material(use, builder, data, diagnostics);
+    if (!material || !material->plain()) return false;
+    return material->plain()->kind() == material->closure({}, table, {}).kind();
+  };
+  EXPECT_TRUE(is_plain(use_of("diffuse")));
+  EXPECT_TRUE(is_plain(use_of("conductor", {number("roughness", 0.3)})));
+  EXPECT_TRUE(is_plain(use_of("dielectric")));
+  EXPECT_TRUE(is_plain(use_of("coateddiffuse")));
+  EXPECT_FALSE(is_plain(use_of("diffuse", {texture("reflectance", "stripes")})));
+  EXPECT_FALSE(is_plain(use_of("diffuse", {texture("displacement", "bumps")})));
+  EXPECT_FALSE(is_plain(use_of("diffuse", {text("normalmap", "n.pfm")})));
+  EXPECT_FALSE(is_plain(use_of("conductor", {number("uroughness", 0.3), number("vroughness", 0.1)})));
+  EXPECT_FALSE(is_plain(use_of("coateddiffuse", {number("uroughness", 0.3), number("vroughness", 0.1)})));
+  EXPECT_EQ(diagnostics.error_count(), 0) << diagnostics.format_all();
+}
+
+// Turning both directions about the normal changes nothing of a closure that says so, and something of others. Random
+// closures are turned with the same numbers.
+TEST(Bsdf, IsotropicOnesMayBeTurned) {
+  const float c = std::cos(1.1f), s = std::sin(1.1f);
+  const auto turned = [&](Vec3 w) { return Vec3{c * w.x - s * w.y, s * w.x + c * w.y, w.z}; };
+  int others = 0;
+  for (const BsdfExample& e : bsdf_examples()) {
+    if (e.bsdf.traits().stochastic || e.bsdf.traits().delta) continue;
+    HashStream rng(3);
+    float largest = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 wo = sample_sphere_uniform({rng.next_float(), rng.next_float()});
+      const auto sample =
+          e.bsdf.sample(wo, {rng.next_float(), rng.next_float(), rng.next_float()}, TransportMode::kRadiance, rng);
+      if (!sample || sample->is_delta()) continue;
+      const float f = e.bsdf.eval_cos(wo, sample->wi, TransportMode::kRadiance, rng)[1];
+      const float g = e.bsdf.eval_cos(turned(wo), turned(sample->wi), TransportMode::kRadiance, rng)[1];
+      // Of lobes as sharp as 1e-4 the rounding of directions is seen.
+      if (f > 0.0f && e.bsdf.widest_alpha() > 0.05f) largest = std::max(largest, std::abs(g / f - 1.0f));
+    }
+    if (e.bsdf.is_isotropic()) {
+      EXPECT_LT(largest, 2e-3f) << e.name;
+    } else {
+      EXPECT_GT(largest, 0.02f) << e.name;
+      ++others;
+    }
+  }
+  EXPECT_GT(others, 0);
 }
 
 TEST(Frame, StaysOrthonormalForEveryTangent) {

@@ -24,6 +24,26 @@ Mesh one_triangle() {
   return m;
 }
 
+// What is kept of a face is what would be found for each point.
+TEST(Triangle, PreparedFacesChangeNoBit) {
+  HashStream rng(2);
+  const auto number = [&] { return 4.0f * rng.next_float() - 2.0f; };
+  for (int i = 0; i < 1000; ++i) {
+    Mesh m;
+    for (int k = 0; k < 3; ++k) m.positions.push_back({number(), number(), number()});
+    if (i % 10 == 0) m.positions[2] = m.positions[1];
+    m.triangles = {{0, 1, 2}};
+    m.flip_ng = i % 2 == 0;
+    const float u = rng.next_float(), v = rng.next_float() * (1.0f - u);
+    const SurfacePoint a = triangle_point(m, 0, u, v);
+    prepare_faces(m);
+    const SurfacePoint b = triangle_point(m, 0, u, v);
+    EXPECT_EQ(a.p, b.p);
+    EXPECT_EQ(a.ng, b.ng);
+    EXPECT_EQ(a.p_error, b.p_error);
+  }
+}
+
 TEST(Triangle, PointNormalAndDefaultUv) {
   Mesh m = one_triangle();
   SurfacePoint s = triangle_point(m, 0, 0.25f, 0.5f);
