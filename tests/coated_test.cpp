@@ -74,7 +74,7 @@ TEST(CoatTable, LightThatEnters) {
       }
 }
 
-// By the coat's own samples from below.
+// It is estimated by the coat's own samples from below.
 double returned_by_samples(const RoughDielectric& coat, float thickness) {
   HashStream unused(0);
   const auto numbers = [&](double cosine) {
@@ -238,7 +238,7 @@ TEST(SlowCoatedLambert, IsTheMeanOfTheWalkForAHundredSeeds) {
   std::printf("the least p-value times their number is below 0.1 for %d of 100 seeds\n", below);
 }
 
-// All energy of a mirror under a coat, with the terms that each depth allows.
+// A mirror under a coat reflects all energy that the terms of each depth allow.
 TEST(CoatedMirror, IsTheMeanOfTheWalk) {
   const SmoothConductor metal{Spectrum::rgb(0.2f, 0.6f, 1.1f), Spectrum::rgb(3.0f, 2.0f, 1.5f)};
   HashStream rng(3);

@@ -358,7 +358,7 @@ TEST(Bsdf, IsotropicOnesMayBeTurned) {
       if (!sample || sample->is_delta()) continue;
       const float f = e.bsdf.eval_cos(wo, sample->wi, TransportMode::kRadiance, rng)[1];
       const float g = e.bsdf.eval_cos(turned(wo), turned(sample->wi), TransportMode::kRadiance, rng)[1];
-      // Of lobes as sharp as 1e-4 the rounding of directions is seen.
+      // Lobes as sharp as 1e-4 show the rounding of directions.
       if (f > 0.0f && e.bsdf.widest_alpha() > 0.05f) largest = std::max(largest, std::abs(g / f - 1.0f));
     }
     if (e.bsdf.is_isotropic()) {

@@ -65,7 +65,7 @@ class Bsdf {
   Spectrum eval_cos(Vec3 wo, Vec3 wi, TransportMode mode, HashStream& rng) const;
   // Solid-angle density with which sample() makes wi among the allowed sides; delta lobes are 0.
   float pdf(Vec3 wo, Vec3 wi, TransportMode mode, Lobe sides = kBothSides) const;
-  // Both at once, for radiance and all sides.
+  // Returns both at once, for radiance and all sides.
   BsdfValue eval_pdf(Vec3 wo, Vec3 wi, HashStream& rng) const;
   // u.x, u.y place the direction, u.z chooses among lobes. Nothing when the sample fails (below the surface, absorbed,
   // or no lobe on the allowed sides): that is an estimate of 0.

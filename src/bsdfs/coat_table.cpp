@@ -61,9 +61,9 @@ double share(const RoughDielectric& coat, Vec3 wo, Lobe side, float thickness, c
   return sum;
 }
 
-// Of diffuse light that leaves the base, the share that a rough coat sends back and that arrives. By the facet's normal
-// h, the cosine c to it, and the azimuth psi about it, for which the measure of both directions is 4 c dh dc dpsi and
-// the reflection operator (Walter et al. 2007, equation 20) leaves
+// Returns the share of diffuse light from the base that a rough coat sends back and that arrives there. By the facet's
+// normal h, the cosine c to it, and the azimuth psi about it, for which the measure of both directions is 4 c dh dc
+// dpsi and the reflection operator (Walter et al. 2007, equation 20) leaves
 //   1/pi int D(h) dh int c F(c) dc int G2 exp(-thickness (1/mu1 + 1/mu2)) dpsi,
 // mu1 and mu2 being c h.z +- s cos(psi), s the product of the sines. Where total reflection begins and where directions
 // end below the surface are then ends of intervals. With tan(h) = alpha sqrt(1 - t^2) / t, D(h) dh is 2 t dt / h.z.

@@ -42,9 +42,9 @@ class CoatTable {
   const RoughDielectric& boundary() const { return boundary_; }
   // `returned` has errors below 1e-3 / (1 - returned), which makes 1e-3 of the sum over all reflections.
   const CoatMeans& means() const { return means_; }
-  // Of light from outside at a cosine in [0, 1]. Up to a thickness of 1 the error of what enters is below 1e-3 of it,
-  // and in thicker coats below 1e-3 of what enters at normal incidence. What is reflected is right within 5 %: enough
-  // to choose lobes by it.
+  // Returns the shares of light from outside at a cosine in [0, 1]. Up to a thickness of 1 the error of what enters is
+  // below 1e-3 of it, and in thicker coats below 1e-3 of what enters at normal incidence. What is reflected is right
+  // within 5 %: enough to choose lobes by it.
   CoatShares shares(float cosine) const;
 
  private:

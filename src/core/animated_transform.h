@@ -82,7 +82,7 @@ class AnimatedTransform {
   double mean_area_scale() const;
   // The first and the last of the keys between which the times are.
   std::pair<size_t, size_t> keys_between(float start, float end) const;
-  // By how much it turns from key `step` to the next, radians.
+  // Returns by how much it turns from key `step` to the next, radians.
   double turn(size_t step) const;
   // A box around all that the points of `box` pass between two times.
   Bounds3 swept(const Bounds3& box, float start, float end) const;

@@ -31,7 +31,7 @@ bool is_rectangle(Vec3d x, Vec3d y, Vec3d opposite) {
          dot(gap, gap) <= sqr(kTolerance) * std::min(xx, yy);
 }
 
-// Of a mesh with normals each point may have the normal of either side, if the corners do not agree.
+// Each point of a mesh with normals may have the normal of either side, if the corners do not agree.
 SurfaceBounds triangle_bounds(const Mesh& mesh, uint32_t triangle) {
   SurfaceBounds all;
   for (const uint32_t i : mesh.triangles[triangle]) all.box.extend(vertex(mesh, i));

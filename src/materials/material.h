@@ -38,7 +38,7 @@ class Material {
 
   SurfaceDetail detail;
 
-  // For one that has no textures: keeps its closure, if it is plain.
+  // Keeps the closure, if it is plain; call it of a material without textures.
   void keep_closure();
 
  private:

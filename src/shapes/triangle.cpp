@@ -55,7 +55,7 @@ Corners moving_corners(const Mesh& mesh, const std::array<uint32_t, 3>& index, f
 
 float rounded_up(double x) { return next_up(static_cast<float>(x)); }
 
-// In double, because edges are small beside coordinates.
+// It computes in double, because edges are small beside coordinates.
 TriangleFace face_of(const Corners& v) {
   const Vec3d a = v.p1 - v.p0, b = v.p2 - v.p0, c = v.p2 - v.p1, across = cross(a, b);
   const double area2 = length(across), inverse = 1.0 / area2;
