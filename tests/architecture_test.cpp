@@ -41,15 +41,16 @@ const std::set<std::pair<std::string, std::string>> kSideways = {
     {"bsdfs", "phase"}, {"params", "core"}, {"io", "spectrum"}, {"denoise", "metrics"}, {"lab", "verify"}};
 
 // Headers of an outside library may be included where this says: all that begin like the first, only under the second.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kLibraries = {{{"embree", "src/accel/embree/"},
-                                                                                      {"OpenImageIO/", "src/io/"},
-                                                                                      {"OpenEXR/", "src/io/"},
-                                                                                      {"Imath/", "src/io/"},
-                                                                                      {"zlib.h", "src/io/"},
-                                                                                      {"CLI/", "apps/cli/"},
-                                                                                      {"gtest/", "tests/"},
-                                                                                      {"gmock/", "tests/"},
-                                                                                      {"benchmark/", "bench/"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kLibraries = {
+    {{"embree", "src/accel/embree/"},
+     {"OpenImageIO/", "src/io/codecs/"},
+     {"OpenEXR/", "src/io/codecs/"},
+     {"Imath/", "src/io/codecs/"},
+     {"zlib.h", "src/io/"},
+     {"CLI/", "apps/cli/"},
+     {"gtest/", "tests/"},
+     {"gmock/", "tests/"},
+     {"benchmark/", "bench/"}}};
 
 bool begins_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 

@@ -61,6 +61,25 @@ TEST_F(CliLimits, WithLittleMemoryNoRenderIsLost) {
   EXPECT_GT(refused, 0);
 }
 
+TEST_F(CliLimits, TheModuleOfImagesIsBesideTheProgramOrInItsLib) {
+  namespace fs = std::filesystem;
+  folder_.write("s.pbrt", kScene);
+  fs::create_directories(folder_.path() / "bin");
+  fs::copy_file(program_path(), folder_.path() / "bin/etendue");
+  const std::string render = "exec bin/etendue render s.pbrt --size 8x8 --spp 1 -o ";
+  EXPECT_EQ(run_shell(render + "a.pfm").exit_code, 0);
+  const Finished missing = run_shell(render + "a.png");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_TRUE(has(missing.err, "libetendue_images.so")) << missing.err;
+  EXPECT_FALSE(exists("a.png"));
+  fs::create_directories(folder_.path() / "lib/etendue");
+  fs::copy_file(program_path().parent_path() / "libetendue_images.so",
+                folder_.path() / "lib/etendue/libetendue_images.so");
+  const Finished there = run_shell(render + "a.png");
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_TRUE(exists("a.png"));
+}
+
 TEST_F(CliLimits, FewerThreadsThanWantedChangeNothingButTheTime) {
   if (kSlowBuild) GTEST_SKIP() << "a sanitizer needs a thread of its own";
   folder_.write("s.pbrt", kScene);

@@ -15,7 +15,7 @@ const ModelDecl& LightIntegrator::decl() {
                    "light",
                    "Light tracing: paths start at the lights, and each of their vertices is joined to the camera.",
                    {}},
-                  {transport_params(), {paths_from_lights_param()}});
+                  {transport_params(TransportSettings().roulette_depth), {paths_from_lights_param()}});
   return d;
 }
 

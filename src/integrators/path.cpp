@@ -16,13 +16,15 @@
 
 namespace etd {
 
+constexpr int kRouletteDepth = 5;  // least error at equal time (docs/performance.md)
+
 const ModelDecl& PathIntegrator::decl() {
   static const ModelDecl d = with_params(
       {Family::kIntegrator,
        "path",
        "Path tracing from the camera with next-event estimation and multiple importance sampling.",
        {}},
-      {transport_params(),
+      {transport_params(kRouletteDepth),
        {{.name = "mode",
          .type = ParamType::kString,
          .default_value = std::string("mis"),

@@ -26,7 +26,7 @@ const ModelDecl& SppmIntegrator::decl() {
        "Stochastic progressive photon mapping: light by photons that are gathered within a radius, which shrinks from "
        "iteration to iteration.",
        {}},
-      {transport_params(kLongestPath),
+      {transport_params(TransportSettings().roulette_depth, kLongestPath),
        {{.name = "radius",
          .default_value = 0.0,
          .min = 0,

@@ -4,7 +4,7 @@
 
 namespace etd {
 
-std::vector<ParamDecl> transport_params(int deepest) {
+std::vector<ParamDecl> transport_params(int roulette_depth, int deepest) {
   return {{.name = "maxdepth",
            .type = ParamType::kInteger,
            .default_value = 5,
@@ -18,7 +18,7 @@ std::vector<ParamDecl> transport_params(int deepest) {
            .doc = "Which part of the light to render."},
           {.name = "roulettedepth",
            .type = ParamType::kInteger,
-           .default_value = 2,
+           .default_value = roulette_depth,
            .min = 1,
            .max = static_cast<double>(deepest),
            .doc = "Scattering events after which Russian roulette may end a path; never changes the mean."},

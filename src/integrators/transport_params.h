@@ -17,8 +17,9 @@ struct TransportSettings {
   std::string light_sampler;                             // empty: the scene's
 };
 
-// Their declarations. No path may have more scattering events than `deepest`.
-std::vector<ParamDecl> transport_params(int deepest = 1 << 20);
+// Their declarations. Roulette starts at `roulette_depth` unless a scene says otherwise; no path may have more
+// scattering events than `deepest`.
+std::vector<ParamDecl> transport_params(int roulette_depth, int deepest = 1 << 20);
 TransportSettings transport_settings(const ParamReader& p);
 // The scene's light sampler, or the one that is asked for.
 LightSampler light_sampler_of(const Scene& scene, const TransportSettings& settings);

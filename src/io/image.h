@@ -139,8 +139,8 @@ struct ImageOptions {
 // Reads PNG, JPEG, TGA, TIFF, EXR, HDR, PFM and what else OpenImageIO knows. 8-bit files stay 8-bit and half files
 // half; other integers are decoded too, floating-point values are taken as they are. Palettes are expanded, grey with
 // alpha becomes RGB with alpha, luminance with chroma RGB, and of EXR files the part or layer with channels R, G, B
-// (and A) is taken (io/image_channels.h), placed in its display window. Colours are multiplied by alpha or not as the
-// file has them. Rotation tags of cameras are not obeyed: row 0 is the top row that the file stores.
+// (and A) is taken (io/codecs/image_channels.h), placed in its display window. Colours are multiplied by alpha or not
+// as the file has them. Rotation tags of cameras are not obeyed: row 0 is the top row that the file stores.
 ImageResult read_image(const std::filesystem::path& path, const ImageOptions& options = {});
 
 // The memory that an image will take, without reading it; 0 when it can't be read.

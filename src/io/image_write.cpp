@@ -1,18 +1,13 @@
 #include "io/image_write.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
-#include <cmath>
 #include <new>
 
 #include <fmt/format.h>
 
-#include "io/oiio_setup.h"
+#include "io/image_codecs.h"
 #include "io/pending_file.h"
 #include "io/pfm.h"
-#include "spectrum/srgb.h"
 
 namespace etd {
 namespace {
@@ -34,59 +29,11 @@ std::string cannot_write(const fs::path& path, std::string why) {
   return why.empty() ? why : fmt::format("cannot write {}: {}", path.string(), why);
 }
 
-// Encoders put their bytes here. They notice a full disk late, never, or by ending the process: so they are told that
-// all went well, and the file knows what did not.
-class FileProxy : public OIIO::Filesystem::IOProxy {
- public:
-  FileProxy(const fs::path& path, PendingFile& file) : IOProxy(path.string(), Write), file_(file) {}
-  const char* proxytype() const override { return "pending"; }
-  bool seek(int64_t offset) override { return file_.seek(m_pos = offset), true; }
-  size_t write(const void* bytes, size_t size) override {
-    file_.write(bytes, size);
-    m_pos += static_cast<int64_t>(size);
-    end_ = std::max(end_, m_pos);
-    return size;
-  }
-  size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
-    const int64_t back = m_pos;
-    seek(offset);
-    write(bytes, size);
-    seek(back);
-    return size;
-  }
-  size_t size() const override { return static_cast<size_t>(end_); }
-
- private:
-  PendingFile& file_;
-  int64_t end_ = 0;
-};
-
-// Encodes rows strip by strip; `value` makes what is stored out of each of their floats and its channel.
-template <class Value>
-std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const RowSource& append_row, Value value) {
-  using Stored = decltype(value(0.0f, size_t{}));
-  constexpr int kStrip = 16;  // as many rows as EXR compresses together
-  prepare_oiio();
+// Returns what went wrong when `f` wrote with the codecs, or an empty string.
+template <class F>
+std::string encode(const fs::path& path, F&& f) {
   try {
-    PendingFile file(path);
-    if (!file.error().empty()) return cannot_write(path, file.error());
-    FileProxy proxy(path, file);  // outlives the encoder, which may write when it is destroyed
-    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path.string());
-    if (out == nullptr) return cannot_write(path, OIIO::geterror());
-    if (!out->set_ioproxy(&proxy) || !out->open(path.string(), spec)) return cannot_write(path, out->geterror());
-    std::vector<float> rows;
-    std::vector<Stored> stored;
-    for (int begin = 0; begin < spec.height && file.error().empty(); begin += kStrip) {
-      const int end = std::min(begin + kStrip, spec.height);
-      rows.clear();
-      for (int row = begin; row < end; ++row) append_row(row, rows);
-      stored.resize(rows.size());
-      for (size_t i = 0; i < rows.size(); ++i) stored[i] = value(rows[i], i % static_cast<size_t>(spec.nchannels));
-      if (!out->write_scanlines(spec.y + begin, spec.y + end, 0, OIIO::BaseTypeFromC<Stored>::value, stored.data()))
-        return cannot_write(path, out->geterror());
-    }
-    if (file.error().empty() && !out->close()) return cannot_write(path, out->geterror());
-    return cannot_write(path, file.commit());
+    return cannot_write(path, f(image_codecs()));
   } catch (const std::bad_alloc&) {
     return cannot_write(path, "out of memory");
   } catch (const std::exception& error) {
@@ -128,43 +75,6 @@ std::string check_header(const ImageHeader& image) {
     if (is_reserved(name)) return fmt::format("metadata cannot be named {}: the EXR format uses the name", name);
   }
   return {};
-}
-
-void add_metadata(OIIO::ImageSpec& spec, const std::string& name, const MetadataValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) spec.attribute(name, *text);
-  if (const auto* number = std::get_if<int>(&value)) spec.attribute(name, *number);
-  if (const auto* number = std::get_if<float>(&value)) spec.attribute(name, *number);
-  if (const auto* number = std::get_if<double>(&value))
-    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE), number);
-}
-
-std::string write_8bit(const fs::path& path, int width, int height, const RowSource& rgb, float exposure, bool alpha) {
-  OIIO::ImageSpec spec(width, height, alpha ? 4 : 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  if (alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (ending_of(path) != ".png") {
-    spec.attribute("Compression", "jpeg:95");
-    spec.attribute("jpeg:subsampling", "4:4:4");
-  }
-  return encode_rows(path, spec, rgb, [scale = std::exp2(exposure)](float v, size_t channel) -> uint8_t {
-    if (channel < 3) return linear_to_srgb8(v * scale);
-    return v > 0 ? static_cast<uint8_t>(255.0f * std::min(v, 1.0f) + 0.5f) : uint8_t{0};
-  });
-}
-
-// Ids are integers that 16 bits do not hold.
-bool is_id(std::string_view channel) { return channel.substr(0, 3) == "id."; }
-
-// Finite values stay finite as 16-bit floats.
-float within_half(float v) {
-  constexpr float kLargest = 65504;
-  return std::isfinite(v) ? std::clamp(v, -kLargest, kLargest) : v;
-}
-
-// Shared exponents hold neither negative numbers nor what is no number, and end at 2^127.
-float within_shared_exponent(float v) {
-  constexpr float kLargest = 0x1.fep126f;
-  return v > 0 ? std::min(v, kLargest) : 0.0f;
 }
 
 std::string write_pfm(const fs::path& path, int width, int height, const RowSource& rgb) {
@@ -222,20 +132,7 @@ LayeredImage all_rows(const RowImage& image) {
 std::string write_layers(const fs::path& path, const RowImage& image) {
   if (!is_layered_path(path)) return cannot_write(path, "layers need a file that ends in .exr");
   if (std::string error = check_header(image); !error.empty()) return cannot_write(path, error);
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
-                       image.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-  spec.x = image.x;
-  spec.y = image.y;
-  spec.full_width = image.full_width;
-  spec.full_height = image.full_height;
-  spec.channelnames = image.channels;
-  spec.attribute("compression", "zip");
-  for (const auto& [name, value] : image.metadata) add_metadata(spec, name, value);
-  if (!image.half) return encode_rows(path, spec, image.append_row, [](float v, size_t) { return v; });
-  for (const std::string& channel : image.channels)
-    spec.channelformats.emplace_back(is_id(channel) ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
-  return encode_rows(path, spec, image.append_row,
-                     [&image](float v, size_t channel) { return is_id(image.channels[channel]) ? v : within_half(v); });
+  return encode(path, [&](const ImageCodecs& codecs) { return codecs.write_exr(path, image); });
 }
 
 std::string write_layers(const fs::path& path, const LayeredImage& image) {
@@ -250,10 +147,11 @@ std::string write_rgb(const fs::path& path, int width, int height, const RowSour
   if (const std::string problem = alpha ? check_alpha_path(path) : ""; !problem.empty())
     return cannot_write(path, problem);
   if (ending == ".png" || ending == ".jpg" || ending == ".jpeg")
-    return write_8bit(path, width, height, rgb, exposure, alpha);
+    return encode(path, [&](const ImageCodecs& codecs) {
+      return codecs.write_8bit(path, width, height, rgb, exposure, alpha, ending != ".png");
+    });
   if (ending == ".hdr")
-    return encode_rows(path, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT), rgb,
-                       [](float v, size_t) { return within_shared_exponent(v); });
+    return encode(path, [&](const ImageCodecs& codecs) { return codecs.write_hdr(path, width, height, rgb); });
   if (ending == ".pfm") return write_pfm(path, width, height, rgb);
   return cannot_write(path, std::string(kUnknownEnding));
 }
@@ -279,6 +177,13 @@ std::string check_output_path(const fs::path& path) {
   constexpr std::string_view kEndings[] = {".exr", ".png", ".jpg", ".jpeg", ".hdr", ".pfm"};
   if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings))
     return std::string(kUnknownEnding);
+  if (ending != ".pfm") {
+    try {
+      image_codecs();  // now, while there is memory for it
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
   return place_problem(path);
 }
 

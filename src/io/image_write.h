@@ -94,8 +94,8 @@ std::string write_rgb(const std::filesystem::path& path, int width, int height, 
 std::string write_rgb(const std::filesystem::path& path, int width, int height, std::span<const float> rgb,
                       float exposure = 0, std::span<const float> alpha = {});
 
-// Whether an image could be written there: known ending, folder present and writable. Leaves an existing file as it is
-// and nothing new behind. Returns what is wrong, or an empty string.
+// Whether an image could be written there: known ending, folder present and writable, and what encodes it loaded.
+// Leaves an existing file as it is and nothing new behind. Returns what is wrong, or an empty string.
 std::string check_output_path(const std::filesystem::path& path);
 
 // Why no picture with alpha can be written there: the format has none. Empty for .png, and for .exr, which has layers.

@@ -1,11 +1,9 @@
 // Images that need not fit into memory: files of tiles, of which OpenImageIO's cache keeps those read last.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "io/image.h"
@@ -25,6 +23,7 @@ std::string write_tiled_levels(const std::filesystem::path& path, const TiledInf
                                const std::function<const Image*()>& next);
 
 class CachedImage;
+class TileCache;  // io/image_codecs.h
 
 class TextureCache {
  public:
@@ -42,9 +41,7 @@ class TextureCache {
   std::string read_error() const;
 
  private:
-  friend class CachedTexels;
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<TileCache> tiles_;
 };
 
 // An open file of tiles. Its cache outlives it.
@@ -57,13 +54,13 @@ class CachedImage {
   const TiledInfo& info() const { return info_; }
 
  private:
-  friend class TextureCache;
+  friend class OiioTiles;
   friend class CachedTexels;
   struct Level {
     int width, height;
     TexelFormat format;
   };
-  TextureCache* cache_ = nullptr;
+  TileCache* tiles_ = nullptr;
   void* handle_ = nullptr;  // of the file in OpenImageIO's cache
   int channels_ = 1;
   TiledInfo info_;

@@ -1,4 +1,4 @@
-#include "io/image_channels.h"
+#include "io/codecs/image_channels.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "io/oiio_setup.h"
+#include "io/codecs/oiio_setup.h"
 
 #include <OpenImageIO/imageio.h>
 
