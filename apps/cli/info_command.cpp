@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "io/file.h"
+#include "io/image_codecs.h"
 #include "io/picture.h"
 #include "printing.h"
 #include "render/memory.h"
@@ -57,6 +58,7 @@ void print_info(const PreparedRender& prepared) {
   answer("memory\n");
   const size_t geometry = scene.geometry_bytes(), accelerator = scene.accelerator->bytes();
   const size_t textures = scene.textures.image_bytes(), lights = scene.light_data.bytes();
+  image_codecs();  // which a render holds in memory too
   const MemoryForecast forecast = forecast_memory(prepared);
   const size_t parts = geometry + accelerator + textures + lights + forecast.film + forecast.integrator;
   if (scene.textures.cache)
