@@ -41,15 +41,15 @@ struct Scene {
   double visible_light = 0.01;  // share of the image that an error of light would have to be to be seen
   bool costly = false;          // its other samplers and roulettes are left to the slow set
 };
-const Scene kScenes[] = {{"conductor_box", 320, 64, 64, 128, 128},
-                         {"textured_room", 320, 96, 128, 64, 0, 96, 0.01, true},
-                         {"sky_instances", 288, 352, 128, 256, 160, 96, 0.05, true},
-                         {"glass_caustic", 448, 128, 144, 128, 0, 0, 0.01, true},
-                         {"lamps", 512, 352, 512, 256, 0, 256, 0.03, true},
-                         {"moving_lamps", 576, 896, 640, 640, 0, 0, 0.03, true},
-                         {"window_room", 1024, 160, 320, 128, 0, 0, 0.03, true},
-                         {"bumpy_room", 832, 608, 288, 288, 0, 0, 0.05, true},
-                         {"bumpy_glass", 320, 192, 160, 144}};
+const Scene kScenes[] = {{"conductor_box", 160, 64, 64, 128, 128},
+                         {"textured_room", 208, 96, 128, 64, 0, 96, 0.01, true},
+                         {"sky_instances", 128, 352, 128, 256, 160, 96, 0.05, true},
+                         {"glass_caustic", 320, 128, 144, 128, 0, 0, 0.01, true},
+                         {"lamps", 320, 352, 512, 256, 0, 160, 0.03, true},
+                         {"moving_lamps", 448, 896, 640, 640, 0, 0, 0.03, true},
+                         {"window_room", 768, 160, 320, 128, 0, 0, 0.03, true},
+                         {"bumpy_room", 640, 608, 288, 288, 0, 0, 0.05, true},
+                         {"bumpy_glass", 256, 192, 160, 144}};
 
 // All are compared with the first, light with what it can see of it. The slow set leaves nothing out.
 std::vector<Variant> variants(const Scene& s, bool slow = false) {
