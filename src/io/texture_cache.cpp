@@ -6,7 +6,11 @@ namespace etd {
 
 std::string write_tiled_levels(const std::filesystem::path& path, const TiledInfo& info,
                                const std::function<const Image*()>& next) {
-  return image_codecs().write_tiled_levels(path, info, next);
+  try {
+    return image_codecs().write_tiled_levels(path, info, next);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 TextureCache::TextureCache(size_t bytes) : tiles_(image_codecs().tile_cache(bytes)) {}
