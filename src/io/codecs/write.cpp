@@ -42,6 +42,8 @@ class FileProxy : public OIIO::Filesystem::IOProxy {
   int64_t end_ = 0;
 };
 
+std::string reason(std::string error) { return error.empty() ? "the encoder gives no reason" : error; }
+
 // Encodes rows strip by strip; `value` makes what is stored out of each of their floats and its channel. Returns what
 // went wrong, or an empty string.
 template <class Value>
@@ -53,8 +55,8 @@ std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const
   if (!file.error().empty()) return file.error();
   FileProxy proxy(path, file);  // outlives the encoder, which may write when it is destroyed
   const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path.string());
-  if (out == nullptr) return OIIO::geterror();
-  if (!out->set_ioproxy(&proxy) || !out->open(path.string(), spec)) return out->geterror();
+  if (out == nullptr) return reason(OIIO::geterror());
+  if (!out->set_ioproxy(&proxy) || !out->open(path.string(), spec)) return reason(out->geterror());
   std::vector<float> rows;
   std::vector<Stored> stored;
   for (int begin = 0; begin < spec.height && file.error().empty(); begin += kStrip) {
@@ -64,9 +66,9 @@ std::string encode_rows(const fs::path& path, const OIIO::ImageSpec& spec, const
     stored.resize(rows.size());
     for (size_t i = 0; i < rows.size(); ++i) stored[i] = value(rows[i], i % static_cast<size_t>(spec.nchannels));
     if (!out->write_scanlines(spec.y + begin, spec.y + end, 0, OIIO::BaseTypeFromC<Stored>::value, stored.data()))
-      return out->geterror();
+      return reason(out->geterror());
   }
-  if (file.error().empty() && !out->close()) return out->geterror();
+  if (file.error().empty() && !out->close()) return reason(out->geterror());
   return file.commit();
 }
 
