@@ -22,7 +22,7 @@ Geometry room() {
   const Transform t = Transform::translate({0.3, -0.5, 0.2}) * Transform::scale({0.5, 0.5, 0.5});
   Geometry g;
   g.meshes.push_back(std::move(m));
-  g.quadrics.push_back({Affine(t.matrix()), Affine(t.inverse_matrix()), false});
+  g.quadrics.emplace_back(t, false);
   g.groups[0].meshes = {0};
   g.groups[0].quadric_end = 1;
   return g;

@@ -28,6 +28,7 @@ TEST(Stats, CountsPathsAndRaysOfPixels) {
 TEST(Stats, JsonHasTheDocumentedForm) {
   RenderStats stats;
   stats.load_seconds = 0.5, stats.build_seconds = 1.5, stats.render_seconds = 2.5;
+  stats.first_pass_seconds = 0.25;
   stats.rays = {1, 2, 1ull << 40};
   stats.rays_per_pixel_mean = 9.25, stats.rays_per_pixel_max = 12;
   stats.invalid = {3, 2, 1, {}};
@@ -37,6 +38,7 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   EXPECT_EQ(json.size(), 8u);
   EXPECT_EQ(json["seconds"]["load"], 0.5);
   EXPECT_EQ(json["seconds"]["build"], 1.5);
+  EXPECT_EQ(json["seconds"]["first_pass"], 0.25);
   EXPECT_EQ(json["seconds"]["render"], 2.5);
   EXPECT_EQ(json["rays"]["camera"], 1);
   EXPECT_EQ(json["rays"]["indirect"], 2);

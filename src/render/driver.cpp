@@ -127,6 +127,7 @@ void RenderLoop::run_passes() {
   while (pass) {
     const double begun = seconds();
     const bool complete = render_pass(*pass);
+    if (pass->index == 0) result_.first_pass_seconds = seconds();
     result_.error = estimated_error(film_, workers_);
     if (!complete) {
       result_.unequal = any_items_;

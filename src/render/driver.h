@@ -49,7 +49,8 @@ struct RenderResult {
   bool unequal = false;      // some pixels have more samples than others: a pass was cut off
   uint32_t error_tests = 0;  // how often the error could have stopped it
   double seconds = 0;
-  double error = HUGE_VAL;  // estimated_error() of the film
+  double first_pass_seconds = 0;  // after which every pixel has a sample, unless the render was stopped before
+  double error = HUGE_VAL;        // estimated_error() of the film
 };
 
 // Renders into an empty film. When `stop` becomes true, or a pass that did not look too long turns out to be when the

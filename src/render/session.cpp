@@ -107,6 +107,7 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   RenderStats stats;
   stats.build_seconds = prepared.build_seconds;
   stats.render_seconds = finished.result.seconds;
+  stats.first_pass_seconds = finished.result.first_pass_seconds;
   stats.rays = finished.result.rays;
   stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;

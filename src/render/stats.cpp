@@ -22,7 +22,10 @@ void count_pixels(const Film& film, RenderStats& stats) {
 
 std::string stats_json(const RenderStats& s) {
   nlohmann::ordered_json json;
-  json["seconds"] = {{"load", s.load_seconds}, {"build", s.build_seconds}, {"render", s.render_seconds}};
+  json["seconds"] = {{"load", s.load_seconds},
+                     {"build", s.build_seconds},
+                     {"first_pass", s.first_pass_seconds},
+                     {"render", s.render_seconds}};
   json["rays"] = {{"camera", s.rays.camera}, {"indirect", s.rays.indirect}, {"shadow", s.rays.shadow}};
   json["rays_per_pixel"] = {{"mean", s.rays_per_pixel_mean}, {"max", s.rays_per_pixel_max}};
   json["invalid"] = {{"nan", s.invalid.nan}, {"infinite", s.invalid.infinite}, {"negative", s.invalid.negative}};

@@ -10,6 +10,7 @@ namespace etd {
 
 struct RenderStats {
   double load_seconds = 0, build_seconds = 0, render_seconds = 0;
+  double first_pass_seconds = 0;  // of render_seconds, until every pixel has its first samples
   RayCounts rays;
   double rays_per_pixel_mean = 0, rays_per_pixel_max = 0;  // over all samples of a pixel
   InvalidSamples invalid;
@@ -21,8 +22,9 @@ struct RenderStats {
 
 // Fills in what the film knows: paths and rays per pixel.
 void count_pixels(const Film& film, RenderStats& stats);
-// {"seconds": {"load", "build", "render"}, "rays": {"camera", "indirect", "shadow"}, "rays_per_pixel": {"mean", "max"},
-// "invalid": {"nan", "infinite", "negative"}, "paths", "peak_bytes", "texture_bytes", "spp"}, ending with a newline.
+// {"seconds": {"load", "build", "first_pass", "render"}, "rays": {"camera", "indirect", "shadow"}, "rays_per_pixel":
+// {"mean", "max"}, "invalid": {"nan", "infinite", "negative"}, "paths", "peak_bytes", "texture_bytes", "spp"}, ending
+// with a newline.
 std::string stats_json(const RenderStats& stats);
 
 }  // namespace etd
