@@ -48,7 +48,8 @@ def faces_record(indices):
 
 def ply_header(vertices, triangles):
     return (f"ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\nproperty float x\n"
-            f"property float y\nproperty float z\nelement face {triangles}\nproperty list uchar int vertex_indices\nend_header\n").encode()
+            f"property float y\nproperty float z\nelement face {triangles}\n"
+            "property list uchar int vertex_indices\nend_header\n").encode()
 
 
 def landscape(triangles, folder):

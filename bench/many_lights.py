@@ -49,6 +49,9 @@ def write_ply(path, triangles):
 
 
 def main():
+    if len(sys.argv) != 3 or not sys.argv[1].isdigit() or not 1 <= int(sys.argv[1]) <= TRIANGLES:
+        print(f"many_lights.py LIGHTS FOLDER: lights from 1 to {TRIANGLES}, and a folder", file=sys.stderr)
+        sys.exit(2)
     lights, folder = int(sys.argv[1]), sys.argv[2]
     os.makedirs(folder, exist_ok=True)
     rng = random.Random(1)

@@ -17,8 +17,8 @@ def grid(rows):
 
 
 def scene_rows(scenes):
-    rows = [["scene", "Mpaths/s", "Mrays/s", "camera", "indirect", "shadow", "Embree %", "its ns/ray", "load s", "build s",
-             "first pixel s", "render s", "peak MB"]]
+    rows = [["scene", "Mpaths/s", "Mrays/s", "camera", "indirect", "shadow", "Embree %", "its ns/ray", "load s",
+             "build s", "first pixel s", "render s", "peak MB"]]
     for name, r in scenes.items():
         rays, embree = r["rays_per_s"], r.get("embree")
         per_ray = embree and 1e9 * embree["replay_seconds"] / sum(embree["rays"].values())

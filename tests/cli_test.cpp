@@ -72,6 +72,8 @@ TEST_F(Cli, RendersAllLayersAndAPicture) {
   EXPECT_EQ(stats["paths"], 24 * 16 * 6);
   EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 6);
   EXPECT_EQ(stats["spp"], 6);
+  EXPECT_GT(stats["seconds"]["first_pass"], 0);
+  EXPECT_LE(stats["seconds"]["first_pass"], stats["seconds"]["render"]);
 }
 
 TEST_F(Cli, StopsWhenTheTimeIsOverOrTheErrorSmall) {
