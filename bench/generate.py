@@ -15,11 +15,11 @@ import math
 import os
 import random
 import struct
-import subprocess
 import sys
 import zlib
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+import many_lights
+
 SEED = 1
 
 
@@ -145,7 +145,7 @@ def textures(folder):
 
 
 def lights(count, folder):
-    subprocess.run([sys.executable, os.path.join(HERE, "many_lights.py"), str(count), folder], check=True)
+    many_lights.write(count, folder)
 
 
 GENERATORS = {

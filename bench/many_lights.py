@@ -48,11 +48,7 @@ def write_ply(path, triangles):
             f.write(b"\x03" + array.array("i", (3 * i, 3 * i + 1, 3 * i + 2)).tobytes())
 
 
-def main():
-    if len(sys.argv) != 3 or not sys.argv[1].isdigit() or not 1 <= int(sys.argv[1]) <= TRIANGLES:
-        print(f"many_lights.py LIGHTS FOLDER: lights from 1 to {TRIANGLES}, and a folder", file=sys.stderr)
-        sys.exit(2)
-    lights, folder = int(sys.argv[1]), sys.argv[2]
+def write(lights, folder):
     os.makedirs(folder, exist_ok=True)
     rng = random.Random(1)
     groups, dark, weighted = [[] for _ in BRIGHTNESS], [], 0.0
@@ -85,6 +81,13 @@ def main():
         text.append(f'AttributeBegin {emits}Shape "plymesh" "string filename" "{name}.ply" AttributeEnd')
     with open(f"{folder}/scene.pbrt", "w") as f:
         f.write("\n".join(text) + "\n")
+
+
+def main():
+    if len(sys.argv) != 3 or not sys.argv[1].isdigit() or not 1 <= int(sys.argv[1]) <= TRIANGLES:
+        print(f"many_lights.py LIGHTS FOLDER: lights from 1 to {TRIANGLES}, and a folder", file=sys.stderr)
+        sys.exit(2)
+    write(int(sys.argv[1]), sys.argv[2])
 
 
 if __name__ == "__main__":
