@@ -172,6 +172,8 @@ def main():
     except OSError as e:
         print(f"generate.py: {e}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130
     return 0
 
 

@@ -95,8 +95,9 @@ class Suite:
     def measure(self, scene, file):
         """Renders in turn with the other programs; the fastest of each counts."""
         best = {}
-        for _ in range(self.args.repeat):
-            for name, program in self.programs.items():
+        for turn in range(self.args.repeat):
+            # Neither program is always the first.
+            for name, program in sorted(self.programs.items(), reverse=turn % 2 == 0):
                 stats = self.render(program, scene, file)
                 kept = best.setdefault(name, stats)
                 if stats["seconds"]["render"] < kept["seconds"]["render"]:
@@ -219,6 +220,8 @@ def run_all(args, history, work):
     suite = Suite(args, work)
     wanted = [s for s in SCENES if (s.name in args.only if args.only else args.all or not s.only_all)]
     result = {**suite_history.machine(), "load": os.getloadavg()[0], "scenes": {}, "materials": {}, "ratios": {}}
+    if args.against:
+        result["against"] = run([args.against, "--version"], work)[0].strip()
     failed = False
     if wanted:
         suite.build_limit()
@@ -248,7 +251,9 @@ def run_all(args, history, work):
             f.write("\n")
     if result["ratios"]:
         print("\n".join(suite_history.compare(history, result["ratios"])[0]))
-    if args.record and result["ratios"]:
+    if args.record and not result["ratios"]:
+        say("nothing is recorded, since there are no ratios")
+    elif args.record:
         suite_history.append(suite_history.FILE, suite_history.line_of(result))
     return 1 if failed else 0
 

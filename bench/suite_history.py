@@ -55,7 +55,8 @@ def line_of(result):
     # What tells whether the commit is what was measured.
     changed = bool(git("status", "--porcelain", "--untracked-files=no", "--", "src", "apps", "CMakeLists.txt"))
     return {"date": datetime.date.today().isoformat(), "commit": git("rev-parse", "--short=12", "HEAD") or "unknown",
-            **({"changed": True} if changed else {}), **machine(), "ratios": result["ratios"]}
+            **({"changed": True} if changed else {}), **machine(),
+            **({"against": result["against"]} if "against" in result else {}), "ratios": result["ratios"]}
 
 
 def append(path, line):
@@ -67,6 +68,8 @@ def compare(lines, ratios):
     """Lines of text on how these ratios stand to those of the last recorded run that has any of them, on a machine like
     this one if there is one; and whether any fell."""
     here = machine()
+    # Those to another build say nothing without that very build.
+    ratios = {name: r for name, r in ratios.items() if not name.split("/")[-1].startswith("against")}
     shared = [old for old in lines if ratios.keys() & old["ratios"].keys()]
     alike = [old for old in shared if (old.get("cpu"), old.get("threads")) == (here["cpu"], here["threads"])]
     if not shared:
