@@ -144,15 +144,11 @@ def textures(folder):
     write_scene(folder, lines)
 
 
-def lights(count, folder):
-    many_lights.write(count, folder)
-
-
 GENERATORS = {
     "triangles-1e6": lambda folder: landscape(10**6, folder),
     "triangles-1e7": lambda folder: landscape(10**7, folder),
     "instances-1e5": lambda folder: instances(10**5, folder),
-    **{f"lights-1e{k}": lambda folder, k=k: lights(10**k, folder) for k in range(2, 7)},
+    **{f"lights-1e{k}": lambda folder, k=k: many_lights.write(10**k, folder) for k in range(2, 7)},
     "textures": textures,
 }
 

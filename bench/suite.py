@@ -250,7 +250,7 @@ def run_all(args, history, work):
             json.dump(result, f, indent=1)
             f.write("\n")
     if result["ratios"]:
-        print("\n".join(suite_history.compare(history, result["ratios"])[0]))
+        print("\n".join(suite_history.compare(history, result["ratios"])))
     if args.record and not result["ratios"]:
         say("nothing is recorded, since there are no ratios")
     elif args.record:

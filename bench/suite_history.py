@@ -66,14 +66,14 @@ def append(path, line):
 
 def compare(lines, ratios):
     """Lines of text on how these ratios stand to those of the last recorded run that has any of them, on a machine like
-    this one if there is one; and whether any fell."""
+    this one if there is one."""
     here = machine()
     # Those to another build say nothing without that very build.
     ratios = {name: r for name, r in ratios.items() if not name.split("/")[-1].startswith("against")}
     shared = [old for old in lines if ratios.keys() & old["ratios"].keys()]
     alike = [old for old in shared if (old.get("cpu"), old.get("threads")) == (here["cpu"], here["threads"])]
     if not shared:
-        return ["history: no recorded run has these ratios"], False
+        return ["history: no recorded run has these ratios"]
     last = (alike or shared)[-1]
     text = [f"history: compared with {last.get('commit')} of {last.get('date')}"
             + ("" if alike else f", on another machine ({last.get('cpu')}, {last.get('threads')} threads)")]
@@ -88,4 +88,4 @@ def compare(lines, ratios):
                         f"from {last['ratios'][name]:.3g} to {ratios[name]:.3g}")
     if not fell:
         text.append(f"  no ratio fell by more than {100 * FALL:.0f} %")
-    return text, fell
+    return text
