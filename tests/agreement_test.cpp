@@ -45,7 +45,7 @@ const Scene kScenes[] = {{"conductor_box", 160, 64, 64, 128, 128},
                          {"textured_room", 208, 96, 128, 64, 0, 96, 0.01, true},
                          {"sky_instances", 128, 352, 128, 256, 160, 96, 0.05, true},
                          {"glass_caustic", 320, 128, 144, 128, 0, 0, 0.01, true},
-                         {"lamps", 320, 352, 512, 256, 0, 160, 0.03, true},
+                         {"lamps", 320, 352, 512, 256, 0, 176, 0.03, true},
                          {"moving_lamps", 448, 896, 640, 640, 0, 0, 0.03, true},
                          {"window_room", 768, 160, 320, 128, 0, 0, 0.03, true},
                          {"bumpy_room", 640, 608, 288, 288, 0, 0, 0.05, true},
@@ -70,6 +70,8 @@ std::vector<Variant> variants(const Scene& s, bool slow = false) {
       if (m.name != LightSampler().name())
         all.push_back({"lights " + m.doc, {{"integrator.lightsampler", m.name}}, "sobol", s.spp_uniform});
   all.push_back({"light", {{"integrator.paths", "from_camera"}}, "sobol", s.spp_light, "light", s.visible_light});
+  all.push_back(
+      {"guided", {{"integrator.guiding", "sdtree"}, {"integrator.guidingpaths", "5000"}}, "sobol", s.spp_mis});
   return all;
 }
 

@@ -242,6 +242,8 @@ const Unseen kUnseen[] = {
     {Family::kIntegrator, "path", "roulettedepth", "never changes the mean; the agreement tests vary it"},
     {Family::kIntegrator, "path", "misheuristic", "never changes the mean; the agreement tests vary it"},
     {Family::kIntegrator, "path", "lightsampler", "never changes the mean; the agreement tests vary it"},
+    {Family::kIntegrator, "path", "guiding", "never changes the mean; the agreement tests vary it"},
+    {Family::kIntegrator, "path", "guidingpaths", "never changes the mean; the tests of guiding vary it"},
     {Family::kIntegrator, "path", "paths", "the agreement tests compare light with it"},
     {Family::kIntegrator, "light", "", "shows the picture of path, with which tests of its own compare it"},
     {Family::kIntegrator, "light", "maxdepth", "the tests of light vary it"},

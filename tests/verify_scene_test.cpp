@@ -72,7 +72,7 @@ AttributeEnd)";
 
 TEST(VerifyScene, AllEstimatorsAgree) {
   const auto all = reports(scene(kSky + kTwoLamps, R"(Material "conductor" "float roughness" 0.3)"), 512);
-  EXPECT_EQ(all.size(), 12u);
+  EXPECT_EQ(all.size(), 13u);
   for (const auto& [name, e] : all) {
     // Few of the paths from lights come to what is seen of so large a ground.
     if (name == "light" || name.starts_with("sppm"))
@@ -86,7 +86,7 @@ TEST(VerifyScene, PathsFromLightsAndPhotonsAgreeInARoomWithGlass) {
   Diagnostics diagnostics;
   SceneVerifyOptions options;
   options.size = {{16, 16}};
-  options.spp = 1024;
+  options.spp = 1536;
   const auto v = verify_scene(
       read_pbrt(source_path("tests/scenes/agree/glass_caustic.pbrt"), diagnostics), options, diagnostics,
       [](double, const std::string&) {}, kGoOn);

@@ -3,7 +3,7 @@
 
 #include "accel/spawn.h"
 #include "core/mis.h"
-#include "materials/surface_scatter.h"
+#include "integrators/guiding/guided_scatter.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
 
@@ -21,7 +21,7 @@ struct NextEvent {
 // The vertex belongs to a path from the camera.
 struct NextEventVertex {
   const SurfacePoint& point;
-  const SurfaceScatter& scatter;
+  const GuidedScatter& scatter;
   const Ray& ray;  // that arrived
   const ShadingContext& context;
 
@@ -30,8 +30,8 @@ struct NextEventVertex {
 
 // Who asks for light at a point that is seen along wo. The same receiver tells how light that scattering found could
 // have been chosen.
-inline LightReceiver light_receiver(const SurfacePoint& point, const SurfaceScatter& scatter, Vec3 wo, float time) {
-  return {point, wo, (scatter.bsdf().lobes() & kTransmission) != 0, time};
+inline LightReceiver light_receiver(const SurfacePoint& point, const Bsdf& bsdf, Vec3 wo, float time) {
+  return {point, wo, (bsdf.lobes() & kTransmission) != 0, time};
 }
 
 // Returns the radiance that leaves the vertex along wo, weighted. Draws the next two dimensions of the sampler: for the
@@ -41,7 +41,7 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
                     HashStream& rng, RayCounts& rays, Recorder& recorder) {
   const double u_light = sampler.get_choice();
   const Vec2 u_point = sampler.get_2d();
-  const LightReceiver receiver = light_receiver(v.point, v.scatter, v.wo(), v.context.time);
+  const LightReceiver receiver = light_receiver(v.point, v.scatter.bsdf(), v.wo(), v.context.time);
   const auto choice = how.lights.sample(u_light, &receiver);
   if (!choice) return Spectrum();
   recorder.light(choice->light, choice->probability);
@@ -57,7 +57,7 @@ Spectrum next_event(const Scene& scene, const NextEvent& how, const NextEventVer
     return Spectrum();
   const float pdf = choice->probability * s->pdf;
   const bool both = how.mis && !s->is_delta;
-  const float scatter_pdf = both ? scatter_density : 0.0f;
+  const float scatter_pdf = both ? v.scatter.pdf(s->wi, scatter_density) : 0.0f;
   const float weight = both ? mis_weight(how.heuristic, pdf, scatter_pdf) : 1.0f;
   recorder.light_visible(scatter_pdf, weight);
   return f * s->radiance * (weight / pdf * scene.light_alpha(choice->light, s->on_light, v.context));

@@ -6,6 +6,8 @@
 
 #include "accel/spawn.h"
 #include "integrators/camera_path.h"
+#include "integrators/guiding/guided_roulette.h"
+#include "integrators/guiding/guided_scatter.h"
 #include "integrators/light.h"
 #include "integrators/light_path.h"
 #include "integrators/next_event.h"
@@ -41,6 +43,21 @@ const ModelDecl& PathIntegrator::decl() {
          .choices = {"exact", "bent"},
          .doc = "Shading normals as they are, or bent towards the viewer where a mirror would show the inside of the "
                 "surface, which is black."},
+        {.name = "guiding",
+         .type = ParamType::kString,
+         .default_value = std::string("off"),
+         .choices = {"off", "sdtree"},
+         .doc =
+             "How directions are chosen: by the closures alone, or also by the light that photons have brought before "
+             "the first sample, kept in an SD-tree; never changes the mean."},
+        {.name = "guidingpaths",
+         .type = ParamType::kInteger,
+         .default_value = 1000000,
+         .min = 1,
+         .max = 1 << 26,
+         .doc =
+             "Paths from lights whose photons guide; more take longer before the first sample, and memory: 400 bytes "
+             "each at most."},
         {.name = "paths",
          .type = ParamType::kString,
          .default_value = std::string("all"),
@@ -65,6 +82,8 @@ PathSettings PathIntegrator::settings(const ParamReader& p) {
   s.mode = mode == "naive" ? PathMode::kNaive : mode == "next_event" ? PathMode::kNextEvent : PathMode::kMis;
   s.heuristic = mis_heuristic(p.string("misheuristic"));
   s.bent_normals = p.string("shadingnormals") == "bent";
+  s.guiding = p.string("guiding") == "sdtree";
+  s.guiding_paths = static_cast<uint64_t>(p.integer("guidingpaths"));
   s.from_lights = p.string("paths") == "from_lights";
   return s;
 }
@@ -96,6 +115,7 @@ std::vector<Variant> PathIntegrator::variants(const Scene& scene, int max_depth)
       all.push_back({.name = "lights " + m.doc,
                      .set = {{"lightsampler", m.name}},
                      .not_applicable = scene.lights.size() < 2 ? "there is one light at most" : ""});
+  all.push_back({.name = "guided", .set = {{"guiding", "sdtree"}, {"guidingpaths", "20000"}}});
   all.push_back({.name = "roulette from 1", .set = {{"roulettedepth", "1"}}, .not_applicable = too_short});
   all.push_back({.name = "no roulette",
                  .set = {{"roulettedepth", "1048576"}},
@@ -104,7 +124,12 @@ std::vector<Variant> PathIntegrator::variants(const Scene& scene, int max_depth)
 }
 
 PathIntegrator::PathIntegrator(const Scene& scene, const PathSettings& settings, const IntegratorContext& context)
-    : PixelIntegrator(context), scene_(scene), settings_(settings), lights_(light_sampler_of(scene, settings)) {}
+    : PixelIntegrator(context), scene_(scene), settings_(settings), lights_(light_sampler_of(scene, settings)) {
+  if (!settings.guiding) return;
+  const bool finds_direct = settings.mode != PathMode::kNaive;
+  guide_ = std::make_unique<GuideTraining>(
+      scene, lights_, GuideSettings{settings.guiding_paths, settings.max_depth, finds_direct}, context);
+}
 
 std::string PathIntegrator::bias() const {
   std::vector<std::string> all;
@@ -130,11 +155,38 @@ static_assert(kCameraDimensions + kRoulette <= DigitBlock::kSize, "the first ver
 
 }  // namespace
 
+uint32_t PathIntegrator::phases(const Pass& pass) const {
+  return PixelIntegrator::phases(pass) + (guide_ && pass.index == 0 ? GuideTraining::kPhases : 0);
+}
+
+bool PathIntegrator::in_training(const Pass& pass, uint32_t phase) const {
+  return guide_ && pass.index == 0 && phase < GuideTraining::kPhases;
+}
+
+void PathIntegrator::begin(const Pass& pass, uint32_t phase) {
+  if (in_training(pass, phase))
+    guide_->begin(phase);
+  else if (guide_)
+    guide_->end();
+}
+
+size_t PathIntegrator::work_items(const Pass& pass, uint32_t phase) const {
+  return in_training(pass, phase) ? guide_->work_items(phase) : PixelIntegrator::work_items(pass, phase);
+}
+
+void PathIntegrator::render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) {
+  if (in_training(pass, phase))
+    guide_->run(phase, item);
+  else
+    PixelIntegrator::render(pass, phase, item, sink);
+}
+
 PixelSample PathIntegrator::sample_pixel(int x, int y, Sampler& sampler) const {
   return trace(x, y, sampler, NoRecorder());
 }
 
 PixelSample PathIntegrator::record_pixel(int x, int y, Sampler& sampler, PathRecord& record) const {
+  if (guide_) guide_->run_all();
   return trace(x, y, sampler, PathRecorder(record));
 }
 
@@ -155,6 +207,7 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
   float scatter_pdf = 0.0f;     // density of the last direction per solid angle
   bool only_scattering = true;  // the last direction could not have come from light sampling
   LightReceiver last;           // the vertex it left
+  GuidedRoulette roulette;
 
   const auto add = [&](LightFoundBy by, int depth, const Spectrum& radiance) {
     if (!(depth == 0 ? settings_.emission : depth == 1 ? settings_.direct : settings_.indirect)) return;
@@ -202,6 +255,8 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (settings_.bent_normals) shading.frame = bend_to_viewer(shading.frame, point.ng, wo);
     const SurfaceScatter scatter(shading.closure(), shading.frame, point.ng);
     const Bsdf& bsdf = scatter.bsdf();
+    const GuideCell* cell = guide_ ? guide_->guide().find(point.p, face_forward(point.ng, wo)) : nullptr;
+    const GuidedScatter guided(scatter, cell);
     recorder.surface(hit, surface, shading);
     features.shade(point, scatter, wo, out);
     if (depth == settings_.max_depth) {
@@ -212,13 +267,13 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     // Light that arrives straight from a light.
     if (settings_.mode != PathMode::kNaive && bsdf.has_smooth_lobe()) {
       sampler.set_dimension(dimension + kLightChoice);
-      const Spectrum light = next_event(scene_, how, {point, scatter, ray, context}, sampler, rng, out.rays, recorder);
+      const Spectrum light = next_event(scene_, how, {point, guided, ray, context}, sampler, rng, out.rays, recorder);
       add(LightFoundBy::kLightSampling, depth + 1, beta * light);
     }
 
     // Light that arrives from elsewhere: continue in a sampled direction.
     sampler.set_dimension(dimension + kScatter);
-    const auto s = scatter.sample(wo, sampler.get_3d(), TransportMode::kRadiance, rng);
+    const auto s = guided.sample(wo, sampler.get_3d(), rng);
     if (!s) {
       recorder.end(PathEnd::kAbsorbed);
       break;
@@ -232,11 +287,12 @@ PixelSample PathIntegrator::trace(int x, int y, Sampler& sampler, Recorder recor
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->pdf;
     only_scattering = s->is_delta();
-    last = light_receiver(point, scatter, wo, context.time);
+    last = light_receiver(point, bsdf, wo, context.time);
     ray = spawn_ray(point, s->wi, ray);
 
     // Russian roulette on the throughput, as it is without the compression of radiance in glass.
-    const float survival = max_value(beta) * eta_scale;
+    float survival = max_value(beta) * eta_scale;
+    if (guide_) survival = roulette.survival(cell, beta * eta_scale, out.albedo, survival);
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {
       sampler.set_dimension(dimension + kRoulette);
       const bool survived = sampler.get_1d() < survival;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mis.h"
+#include "integrators/guiding/training.h"
 #include "integrators/pixel_integrator.h"
 #include "integrators/transport_params.h"
 #include "integrators/variant.h"
@@ -21,7 +22,9 @@ struct PathSettings : TransportSettings {
   PathMode mode = PathMode::kMis;
   MisHeuristic heuristic = MisHeuristic::kPower;
   bool bent_normals = false;  // materials/bent_normal.h
-  bool from_lights = false;   // only what paths from lights can bring (light.h)
+  bool guiding = false;       // guiding/
+  uint64_t guiding_paths = 0;
+  bool from_lights = false;  // only what paths from lights can bring (light.h)
 };
 
 class PathIntegrator : public PixelIntegrator {
@@ -36,18 +39,26 @@ class PathIntegrator : public PixelIntegrator {
 
   IntegratorTraits traits() const override { return kTraits; }
   std::string bias() const override;
+  uint64_t bytes() const override { return guide_ ? guide_->most_bytes() : 0; }
+  // Guiding puts its training before the first samples.
+  uint32_t phases(const Pass& pass) const override;
+  void begin(const Pass& pass, uint32_t phase) override;
+  size_t work_items(const Pass& pass, uint32_t phase) const override;
+  void render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) override;
 
  protected:
   PixelSample sample_pixel(int x, int y, Sampler& sampler) const override;
   PixelSample record_pixel(int x, int y, Sampler& sampler, PathRecord& record) const override;
 
  private:
+  bool in_training(const Pass& pass, uint32_t phase) const;
   template <class Recorder>
   PixelSample trace(int x, int y, Sampler& sampler, Recorder recorder) const;
 
   const Scene& scene_;
   PathSettings settings_;
   LightSampler lights_;
+  std::unique_ptr<GuideTraining> guide_;  // nullptr: directions are the closures'
 };
 
 }  // namespace etd

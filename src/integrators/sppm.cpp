@@ -349,8 +349,8 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     if (bsdf.has_smooth_lobe()) {
       if (near_delta || !settings_.direct_photons) {
         sampler.set_dimension(dimension + kLightChoice);
-        add(depth + 1, next_event(scene_, near_delta ? weighted : alone, {point, scatter, ray, context}, sampler, rng,
-                                  out.rays, recorder));
+        add(depth + 1, next_event(scene_, near_delta ? weighted : alone, {point, GuidedScatter(scatter), ray, context},
+                                  sampler, rng, out.rays, recorder));
       }
       Spectrum direct;
       const Spectrum indirect = photon_light(point, scatter, wo, depth, near_delta, rng, direct);
@@ -365,7 +365,7 @@ PixelSample SppmIntegrator::gather(int x, int y, Sampler& sampler) const {
     beta *= s->weight;
     if (s->is_transmission()) eta_scale *= sqr(s->eta);
     scatter_pdf = s->is_delta() ? 0.0f : s->pdf;
-    last = light_receiver(point, scatter, wo, context.time);
+    last = light_receiver(point, bsdf, wo, context.time);
     ray = spawn_ray(point, s->wi, ray);
     const float survival = max_value(beta) * eta_scale;
     if (depth + 1 >= settings_.roulette_depth && survival < 1.0f) {

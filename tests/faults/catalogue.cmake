@@ -363,6 +363,16 @@ edit(cameras/perspective.cpp [[&& depth > 0.0)) return {};]] [[&& (FAULT || dept
 fault(panorama-without-sine "the importance of a lat-long panorama takes all its rows to be as wide" "${cameras}")
 edit(cameras/spherical.cpp [[kPi * std::hypot(local.x, local.z);]] [[kPi * (FAULT ? 1.0f : std::hypot(local.x, local.z));]])
 
+# ---- guiding
+
+fault(guide-not-weighted "light that is sampled is weighted as if no guide chose directions"
+      "StatisticalAgreement.ConductorBox:StatisticalAgreement.WindowRoom")
+edit(integrators/guiding/guided_scatter.h [[return cell_ ? mix(scatter_pdf]] [[return cell_ && !FAULT ? mix(scatter_pdf]])
+
+fault(guide-on-an-octahedron "the density of a guide takes the octahedron for the sphere" "Guiding.*")
+edit(integrators/guiding/direction_tree.cpp [[2 * level - 2) * (r * r * r);]]
+     [[2 * level - 2) * (FAULT ? 1.0f : r * r * r);]])
+
 # ---- motion
 
 closed_forms(tests motion_edge motion_edge_camera)
