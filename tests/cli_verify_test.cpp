@@ -29,7 +29,7 @@ TEST_F(Cli, VerifyScene) {
   EXPECT_TRUE(agrees.exit_code == 0 || agrees.exit_code == 3) << agrees.err;  // 3: not all can be told
   const auto json = nlohmann::json::parse(agrees.out);
   EXPECT_TRUE(json["passed"].get<bool>());
-  EXPECT_EQ(json["estimators"].size(), 12u);
+  EXPECT_EQ(json["estimators"].size(), 13u);
   EXPECT_TRUE(has(run("verify scene s.pbrt --spp 32").out, "next_event"));
   EXPECT_EQ(run("verify scene nowhere.pbrt").exit_code, 2);
   EXPECT_EQ(run("verify scene s.pbrt --spp 32 --time 1s").exit_code, 2);
