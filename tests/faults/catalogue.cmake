@@ -366,7 +366,7 @@ edit(cameras/spherical.cpp [[kPi * std::hypot(local.x, local.z);]] [[kPi * (FAUL
 # ---- guiding
 
 fault(guide-not-weighted "light that is sampled is weighted as if no guide chose directions"
-      "StatisticalAgreement.ConductorBox:StatisticalAgreement.WindowRoom")
+      "StatisticalGuiding.*")
 edit(integrators/guiding/guided_scatter.h [[return cell_ ? mix(scatter_pdf]] [[return cell_ && !FAULT ? mix(scatter_pdf]])
 
 fault(guide-on-an-octahedron "the density of a guide takes the octahedron for the sphere" "Guiding.*")
