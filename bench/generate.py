@@ -6,6 +6,7 @@
 FOLDER/scene.pbrt is the scene. The same name gives the same bytes every time. Names:
 
   triangles-1e6, triangles-1e7   a landscape of so many triangles
+  triangles-ascii, triangles-pbrt   one of 2 10^6 triangles as text: an ascii PLY file, a trianglemesh
   instances-1e5                  so many instances of a ball of 1280 triangles
   lights-1e2 ... lights-1e6      so many of a million little triangles emit (many_lights.py)
   textures                       16 images of 2048 x 2048 pixels, 201 MB of them
@@ -75,6 +76,43 @@ def landscape(triangles, folder):
             f.write(faces_record(array.array("i", map((j * (n + 1)).__add__, first))))
     write_scene(folder, head("LookAt 0 -2 1.2  0 0 0  0 0 1", 45, 5) +
                 ['Shape "plymesh" "string filename" "landscape.ply"'])
+
+
+def landscape_rows(triangles):
+    """The same kind of square for readers of text: rows of vertices, and of the indices of triangles."""
+    n = round(math.sqrt(triangles / 2))
+    rng = random.Random(SEED)
+    at = [2 * i / n - 1 for i in range(n + 1)]
+    wave = [0.1 * math.sin(3 * x) for x in at]
+    vertices = (" ".join(f"{x:.7g} {y:.7g} {(1 + h) * w + rng.random() / n:.7g}\n" for x, w in zip(at, wave))
+                for y, h in zip(at, wave))
+    first = [(i, i + 1, i + n + 2, i, i + n + 2, i + n + 1) for i in range(n)]
+    faces = ([tuple(k + j * (n + 1) for k in six) for six in first] for j in range(n))
+    return n, vertices, faces
+
+
+def landscape_ascii(triangles, folder):
+    n, vertices, faces = landscape_rows(triangles)
+    with open(os.path.join(folder, "landscape.ply"), "w", encoding="ascii") as f:
+        f.write(ply_header((n + 1) ** 2, 2 * n * n).decode().replace("binary_little_endian", "ascii"))
+        for row in vertices:
+            f.write(row.replace("\n ", "\n"))
+        for row in faces:
+            f.write("".join("3 %d %d %d\n3 %d %d %d\n" % six for six in row))
+    write_scene(folder, head("LookAt 0 -2 1.2  0 0 0  0 0 1", 45, 5) +
+                ['Shape "plymesh" "string filename" "landscape.ply"'])
+
+
+def landscape_pbrt(triangles, folder):
+    _, vertices, faces = landscape_rows(triangles)
+    write_scene(folder, head("LookAt 0 -2 1.2  0 0 0  0 0 1", 45, 5))
+    with open(os.path.join(folder, "scene.pbrt"), "a", encoding="ascii") as f:
+        f.write('Shape "trianglemesh" "point3 P" [\n')
+        f.writelines(row.replace("\n ", "\n") for row in vertices)
+        f.write('] "integer indices" [\n')
+        for row in faces:
+            f.write("".join("%d %d %d %d %d %d\n" % six for six in row))
+        f.write("]\n")
 
 
 def ball(levels):
@@ -147,6 +185,8 @@ def textures(folder):
 GENERATORS = {
     "triangles-1e6": lambda folder: landscape(10**6, folder),
     "triangles-1e7": lambda folder: landscape(10**7, folder),
+    "triangles-ascii": lambda folder: landscape_ascii(2 * 10**6, folder),
+    "triangles-pbrt": lambda folder: landscape_pbrt(2 * 10**6, folder),
     "instances-1e5": lambda folder: instances(10**5, folder),
     **{f"lights-1e{k}": lambda folder, k=k: many_lights.write(10**k, folder) for k in range(2, 7)},
     "textures": textures,

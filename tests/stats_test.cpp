@@ -33,9 +33,10 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   stats.rays_per_pixel_mean = 9.25, stats.rays_per_pixel_max = 12;
   stats.invalid = {3, 2, 1, {}};
   stats.paths = 7, stats.peak_bytes = peak_memory_bytes(), stats.spp = 64;
+  stats.load_peak_bytes = 5, stats.geometry_bytes = 2, stats.accelerator_bytes = 1ull << 40;
   EXPECT_GT(stats.peak_bytes, 1u << 20);
   const auto json = nlohmann::json::parse(stats_json(stats));
-  EXPECT_EQ(json.size(), 8u);
+  EXPECT_EQ(json.size(), 9u);
   EXPECT_EQ(json["seconds"]["load"], 0.5);
   EXPECT_EQ(json["seconds"]["build"], 1.5);
   EXPECT_EQ(json["seconds"]["first_pass"], 0.25);
@@ -50,6 +51,9 @@ TEST(Stats, JsonHasTheDocumentedForm) {
   EXPECT_EQ(json["invalid"]["negative"], 1);
   EXPECT_EQ(json["paths"], 7);
   EXPECT_EQ(json["peak_bytes"], stats.peak_bytes);
+  EXPECT_EQ(json["memory"]["load_peak"], 5);
+  EXPECT_EQ(json["memory"]["geometry"], 2);
+  EXPECT_EQ(json["memory"]["accelerator"], 1ull << 40);
   EXPECT_EQ(json["spp"], 64);
 }
 

@@ -20,13 +20,15 @@ std::string output_of_film(std::string filename) {
 
 }  // namespace
 
-LoadedScene::LoadedScene(const SceneArguments& args, const std::vector<View>& views)
-    : overrides_(args.overrides), diagnostics_(args.allow_unsupported, args.limits) {
+LoadedScene::LoadedScene(const SceneArguments& args, const std::vector<View>& views, bool quiet)
+    : overrides_(args.overrides), bar_(quiet), diagnostics_(args.allow_unsupported, args.limits) {
   const auto start = std::chrono::steady_clock::now();
+  bar_.show("reading " + std::filesystem::path(args.scene).filename().string(), 0);
   description_ = load_scene(args.scene, diagnostics_);
   const ViewDescription own = description_;
   for (const View& view : views)
     views_.push_back(view.camera.empty() ? own : read_pbrt_view(view.camera, own, diagnostics_));
+  bar_.clear();
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -39,10 +41,12 @@ void LoadedScene::check_views(std::vector<View>& views) {
   }
 }
 
-std::optional<PreparedRender> LoadedScene::prepare(size_t view) {
+std::optional<PreparedRender> LoadedScene::prepare(size_t view, const std::atomic<bool>* stop) {
   static_cast<ViewDescription&>(description_) = views_[view];
   SceneFiles* kept = views_.size() > 1 ? &files_ : nullptr;
-  std::optional<PreparedRender> prepared = prepare_render(description_, overrides_, diagnostics_, {}, kept);
+  std::optional<PreparedRender> prepared =
+      prepare_render(description_, overrides_, diagnostics_, {}, kept, bar_.monitor(stop));
+  bar_.clear();
   if (view + 1 == views_.size()) description_ = SceneDescription(), files_ = SceneFiles();
   if (printed_ == 0) {
     print_diagnostics(diagnostics_);

@@ -174,21 +174,26 @@ bool render_view(const Arguments& args, const View& view, const std::string& lab
 
 // Renders one view after the other, until all are done or somebody stops it. False when there are errors.
 bool render_views(const Arguments& args, std::vector<View>& views, LoadedScene& scene, Watchers& watchers,
-                  const std::atomic<bool>& stop, Outcome& outcome) {
-  for (; outcome.rendered < views.size() && !(stop && outcome.rendered > 0); ++outcome.rendered) {
+                  std::optional<InterruptScope>& interrupts, Outcome& outcome) {
+  const auto stopped = [&] { return outcome.rendered > 0 && interrupts && interrupts->stop(); };
+  for (; outcome.rendered < views.size() && !stopped(); ++outcome.rendered) {
     const size_t i = outcome.rendered;
     const std::string name = std::filesystem::path(views[i].camera).filename().string();
     const std::string label = views.size() < 2 ? "" : fmt::format("{}/{} {}", i + 1, views.size(), name);
     try {
-      std::optional<PreparedRender> prepared = scene.prepare(i);
+      std::optional<PreparedRender> prepared = scene.prepare(i, interrupts ? &interrupts->stop() : nullptr);
+      // Until now there was nothing worth keeping, and a signal ended the program at once.
+      if (!interrupts) interrupts.emplace();
       if (i == 0) tell_of_refused_threads();
       if (!prepared) return false;
-      if (stop && i > 0) break;
+      if (stopped()) break;
       name_output(*prepared, views[i]);
       if (const std::string problem = i == 0 ? output_problem(args, views) : ""; !problem.empty())
         return fail(problem), false;
-      if (!render_view(args, views[i], label, *prepared, watchers, stop, outcome)) break;
+      if (!render_view(args, views[i], label, *prepared, watchers, interrupts->stop(), outcome)) break;
       outcome.stats.back().load_seconds = i == 0 ? scene.seconds() : 0;
+    } catch (const LoadingStopped&) {
+      break;
     } catch (const std::exception& e) {
       if (views.size() < 2) throw;
       const bool memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
@@ -204,19 +209,19 @@ int render_scene(const Arguments& args) {
   Watchers watchers(args.watch);
   if (const std::string problem = watchers.connect(); !problem.empty()) return fail(problem);
 
-  LoadedScene scene(args, args.views);
+  LoadedScene scene(args, args.views, args.watch.quiet);
   std::vector<View> views = args.views;
   if (views.size() > 1) scene.check_views(views);
-  const InterruptScope interrupts;
+  std::optional<InterruptScope> interrupts;
   Outcome outcome;
-  const bool sound = render_views(args, views, scene, watchers, interrupts.stop(), outcome);
+  const bool sound = render_views(args, views, scene, watchers, interrupts, outcome);
   const bool all = outcome.rendered == views.size();
   if (!all && views.size() > 1 && (sound || outcome.rendered > 0))
     tell("etendue: not rendered: {}\n", outputs_text(views, outcome.rendered));
   write_stats(args, outcome);
   if (!sound) return kBadInput;
   if (outcome.failed) return kInternalError;
-  if (interrupts.exit_code() != 0) return interrupts.exit_code();
+  if (interrupts && interrupts->exit_code() != 0) return interrupts->exit_code();
   if (!all) return kInternalError;
   return args.strict && outcome.invalid ? kInvalidSamples : kOk;
 }

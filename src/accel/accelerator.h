@@ -6,14 +6,15 @@
 
 #include "accel/geometry.h"
 #include "accel/ray.h"
+#include "core/loading.h"
 
 namespace etd {
 
 class Accelerator {
  public:
   // Builds over `geometry`, which must outlive it unchanged (its buffers are shared). Throws std::runtime_error with a
-  // readable message when memory runs out.
-  explicit Accelerator(const Geometry& geometry);
+  // readable message when memory runs out, and LoadingStopped when `monitor` says so, which is told of the building.
+  explicit Accelerator(const Geometry& geometry, const LoadMonitor& monitor = {});
   ~Accelerator();
   Accelerator(Accelerator&&) noexcept;
   Accelerator& operator=(Accelerator&&) noexcept;

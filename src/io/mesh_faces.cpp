@@ -48,6 +48,8 @@ Vec2 finite_uv(Vec2 uv, MeshLosses& losses) {
 }
 
 void FaceList::add(std::span<const uint32_t> corners, MeshLosses& losses) {
+  const auto is_triangle = [](auto c) { return c[0] != c[1] && c[1] != c[2] && c[2] != c[0]; };
+  if (corners.size() == 3 && is_triangle(corners)) return add_triangle(corners[0], corners[1], corners[2]);
   std::vector<uint32_t>& face = scratch_;
   face.clear();
   for (const uint32_t c : corners) {
@@ -80,6 +82,7 @@ void FaceList::add(std::span<const uint32_t> corners, MeshLosses& losses) {
 
 std::vector<std::array<uint32_t, 3>> FaceList::take_triangles(const std::vector<Point3d>& positions,
                                                               MeshLosses& losses) {
+  if (polygons_.empty()) return std::move(triangles_);
   PolygonCutter cutter;
   std::vector<std::array<uint32_t, 3>> cut;
   size_t from = 0, to = 0;

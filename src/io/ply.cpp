@@ -42,7 +42,7 @@ class PlyMeshReader {
   PlyPlan plan_indices(const PlyElement& element);
   void note_unused(const PlyPlan& plan);
   bool read_elements(PlyBody& body);
-  void take_vertex(const PlyBody& body, const PlyValues& values, uint64_t index);
+  void take_vertex(const PlyScalars& values, uint64_t index, int line);
   void take_face(const PlyBody& body, const PlyValues& values, uint64_t index);
   void take_strips(const PlyBody& body, const PlyValues& values, uint64_t index);
   bool is_vertex(double index) const {
@@ -169,6 +169,7 @@ void PlyMeshReader::note_unused(const PlyPlan& plan) {
 // Returns false when the data were lost before their end.
 bool PlyMeshReader::read_elements(PlyBody& body) {
   PlyValues values;
+  std::vector<PlyScalars> rows;
   for (const PlyElement& element : header_.elements) {
     if (element.properties.empty()) continue;
     // This comes before anything is allocated: a header may promise more than the file can hold.
@@ -189,9 +190,16 @@ bool PlyMeshReader::read_elements(PlyBody& body) {
       face_list_.reserve(element.count);
     }
     for (uint64_t i = 0; i < element.count; ++i) {
+      if (is_face) i += body.read_triangles(plan, element.count - i, vertices_.element->count, face_list_);
+      if (!is_face && !is_strip) {
+        body.read_rows(plan, element.count - i, rows);
+        for (size_t k = 0; is_vertex && k < rows.size(); ++k) take_vertex(rows[k], i + k, 0);
+        i += rows.size();
+      }
+      if (i == element.count) break;
       const PlyStep step = body.read(plan, values);
       if (step == PlyStep::kDone) {
-        if (is_vertex) take_vertex(body, values, i);
+        if (is_vertex) take_vertex(values.scalars, i, body.line());
         if (is_face) take_face(body, values, i);
         if (is_strip) take_strips(body, values, i);
         continue;
@@ -203,11 +211,10 @@ bool PlyMeshReader::read_elements(PlyBody& body) {
   return true;
 }
 
-void PlyMeshReader::take_vertex(const PlyBody& body, const PlyValues& values, uint64_t index) {
-  const auto& v = values.scalars;
+void PlyMeshReader::take_vertex(const PlyScalars& v, uint64_t index, int line) {
   const auto as_float = [&v](int slot) { return static_cast<float>(v[static_cast<size_t>(slot)]); };
   mesh_.positions.push_back({v[0], v[1], v[2]});
-  unfit_.check(mesh_.positions.back(), static_cast<uint32_t>(index), body.line());
+  unfit_.check(mesh_.positions.back(), static_cast<uint32_t>(index), line);
   if (has_normals_)
     mesh_.normals.push_back(finite_normal({as_float(kNormal), as_float(kNormal + 1), as_float(kNormal + 2)}, losses_));
   if (has_uvs_) mesh_.uvs.push_back(finite_uv({as_float(kUv), as_float(kUv + 1)}, losses_));

@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "io/decimal.h"
 #include "io/file.h"
+#include "io/ply_rows.h"
 
 namespace etd {
 namespace {
@@ -43,6 +45,17 @@ class BinaryBody final : public PlyBody {
   BinaryBody(std::string_view data, bool swap_bytes) : left_(data), swap_(swap_bytes) {}
 
   PlyStep read(const PlyPlan& plan, PlyValues& values) override { return read_properties(*this, plan, values); }
+
+  void read_rows(const PlyPlan& plan, uint64_t most, std::vector<PlyScalars>& rows) override {
+    const size_t bytes = ply_row_bytes(*plan.element);
+    rows.resize(bytes == 0 ? 0 : std::min<uint64_t>({most, left_.size() / bytes, kPlyRows}));
+    convert_ply_rows(left_.data(), plan, swap_, rows);
+    left_.remove_prefix(bytes * rows.size());
+  }
+
+  uint64_t read_triangles(const PlyPlan& plan, uint64_t most, uint64_t vertices, FaceList& faces) override {
+    return take_ply_triangles(left_, plan, swap_, most, vertices, faces);
+  }
 
   int line() const override { return 0; }
 
@@ -176,7 +189,14 @@ class AsciiBody final : public PlyBody {
   }
 
   PlyStep value(PlyType type, const PlyProperty& property, double& out) {
-    std::string_view word = take_word();
+    const char* const end = left_.data() + left_.size();
+    if (const char* const after = read_decimal(left_.data(), end, out); after && (after == end || is_blank(*after))) {
+      left_.remove_prefix(static_cast<size_t>(after - left_.data()));
+      trim();
+      if (type == PlyType::kFloat32) out = static_cast<double>(static_cast<float>(out));
+      return PlyStep::kDone;
+    }
+    const std::string_view word = take_word();
     if (word.empty()) {
       error_ = fmt::format("the line ends before its {}", property.name);
       return PlyStep::kBad;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh_faces.h"
 #include "io/ply_header.h"
 
 namespace etd {
@@ -19,9 +20,11 @@ struct PlyPlan {
   std::vector<int> slots;
 };
 
+using PlyScalars = std::array<double, 8>;
+
 // The wanted values of one element; a float stays exactly itself, and so does every integer type of the format.
 struct PlyValues {
-  std::array<double, 8> scalars{};
+  PlyScalars scalars{};
   std::vector<double> list;
 };
 
@@ -34,6 +37,12 @@ class PlyBody {
   virtual ~PlyBody() = default;
   // Reads the next element of the file.
   virtual PlyStep read(const PlyPlan& plan, PlyValues& values) = 0;
+  // Reads the next elements, at most `most`, faster than one by one, and fills in a row of scalars for each; none where
+  // that is not possible, which read() then tells more about. Nothing can be wrong with those that are read.
+  virtual void read_rows(const PlyPlan&, uint64_t /*most*/, std::vector<PlyScalars>& rows) { rows.clear(); }
+  // Adds faces of three different corners below `vertices`, at most `most`, as long as one follows the other, and
+  // returns how many; read() tells what stands behind them.
+  virtual uint64_t read_triangles(const PlyPlan&, uint64_t /*most*/, uint64_t /*vertices*/, FaceList&) { return 0; }
   // The line of the element read last, 0 in binary.
   virtual int line() const = 0;
   // Says where that element stands: "line 12: vertex 3" in text, "vertex 3" in binary, counted from 0.

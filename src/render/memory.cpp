@@ -1,6 +1,5 @@
 #include "render/memory.h"
 
-#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "core/freed_memory.h"
 #include "render/output.h"
 #include "render/session.h"
 #include "render/workers.h"
@@ -39,8 +39,6 @@ size_t strip_bytes(const ImageHeader& image) {
 uint64_t memory_bytes() { return status_bytes("VmRSS:"); }
 
 uint64_t peak_memory_bytes() { return status_bytes("VmHWM:"); }
-
-void return_freed_memory() { ::malloc_trim(0); }
 
 size_t writing_bytes(const ImageHeader& image) {
   constexpr size_t kCopies = 5;  // as floats, as what is stored, and in the encoder while it compresses them

@@ -13,9 +13,6 @@ struct ImageHeader;
 uint64_t memory_bytes();
 uint64_t peak_memory_bytes();
 
-// Gives the system back what was freed, as after loading: what is needed next is then all that is added.
-void return_freed_memory();
-
 // Forecasts the memory of a render that has been prepared and not begun, in bytes.
 struct MemoryForecast {
   size_t film = 0;

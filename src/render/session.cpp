@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "core/freed_memory.h"
 #include "integrators/make_integrator.h"
 #include "render/memory.h"
 #include "render/provenance.h"
@@ -35,7 +36,8 @@ std::string bias_of(const PreparedRender& prepared) {
 }  // namespace
 
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
-                                             Diagnostics& diagnostics, CompiledScene compiled, SceneFiles* files) {
+                                             Diagnostics& diagnostics, CompiledScene compiled, SceneFiles* files,
+                                             const LoadMonitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   PreparedRender prepared;
   prepared.scene_file = description.file;
@@ -57,7 +59,8 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
                       .height = settings.film.height,
                       .spp = settings.spp,
                       .textures = settings.textures,
-                      .files = files},
+                      .files = files,
+                      .monitor = monitor},
                      diagnostics);
     });
   if (diagnostics.has_errors() || !prepared.compiled.scene) return {};
@@ -72,6 +75,7 @@ std::optional<PreparedRender> prepare_render(const SceneDescription& description
   prepared.integrator = make_integrator(settings.integrator, *prepared.compiled.scene, context, diagnostics);
   if (diagnostics.has_errors()) return {};
   prepared.substitutes = fmt::format("{}", fmt::join(diagnostics.substitutes(), "; "));
+  prepared.load_peak_bytes = peak_memory_bytes();
   prepared.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
 }
@@ -112,6 +116,9 @@ RenderStats finished_stats(const PreparedRender& prepared, const FinishedRender&
   stats.invalid = finished.result.invalid;
   stats.spp = finished.result.spp;
   stats.peak_bytes = peak_memory_bytes();
+  stats.load_peak_bytes = prepared.load_peak_bytes;
+  stats.geometry_bytes = prepared.compiled.scene->geometry_bytes();
+  stats.accelerator_bytes = prepared.compiled.scene->accelerator->bytes();
   stats.texture_bytes = prepared.compiled.scene->textures.image_bytes();
   count_pixels(finished.film, stats);
   return stats;

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "core/loading.h"
 #include "film/film.h"
 #include "integrators/integrator.h"
 #include "params/limits.h"
@@ -33,15 +34,17 @@ struct PreparedRender {
   CompiledScene compiled;  // outlives the integrator, which refers to the scene
   std::unique_ptr<Integrator> integrator;
   double build_seconds = 0;
+  uint64_t load_peak_bytes = 0;  // the most that the process had held when all this was there
 };
 
 // Compiles the scene and makes the integrator. Reports everything that is wrong with description and overrides, also
 // when errors were reported before, and returns nothing if there is any error.
 // `compiled`: what was compiled before from the same description, for an image of the same size.
 // `files`: what was read for the same description with another view, and is read now (scene/compile.h).
+// `monitor` is told of the loading, and can stop it: then LoadingStopped is thrown.
 std::optional<PreparedRender> prepare_render(const SceneDescription& description, const RenderOverrides& overrides,
                                              Diagnostics& diagnostics, CompiledScene compiled = {},
-                                             SceneFiles* files = nullptr);
+                                             SceneFiles* files = nullptr, const LoadMonitor& monitor = {});
 
 struct FinishedRender {
   Film film;

@@ -31,6 +31,8 @@ std::string stats_json(const RenderStats& s) {
   json["invalid"] = {{"nan", s.invalid.nan}, {"infinite", s.invalid.infinite}, {"negative", s.invalid.negative}};
   json["paths"] = s.paths;
   json["peak_bytes"] = s.peak_bytes;
+  json["memory"] = {
+      {"load_peak", s.load_peak_bytes}, {"geometry", s.geometry_bytes}, {"accelerator", s.accelerator_bytes}};
   json["texture_bytes"] = s.texture_bytes;
   json["spp"] = s.spp;
   return json.dump(2) + "\n";

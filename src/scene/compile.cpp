@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cameras/shutter.h"
+#include "core/freed_memory.h"
 #include "scene/check_precision.h"
 #include "scene/check_transform.h"
 #include "scene/compile_geometry.h"
@@ -217,7 +218,7 @@ CompiledScene compile(const SceneDescription& description, const CompileOptions&
   const std::vector<uint32_t> material_of = compile_materials(description, textures, *scene, *info, diagnostics);
   for (const ModelUse& use : description.area_lights) check(Family::kAreaLight, use, diagnostics);
   const Viewpoint view = viewpoint_of(description, options);
-  compile_geometry(description, view, material_of, textures, files, *scene, *info, diagnostics);
+  compile_geometry(description, view, material_of, textures, files, *scene, *info, diagnostics, options.monitor);
   textures.recentre(scene->origin);
   load_images(options, textures, files, *scene, diagnostics);
 
@@ -236,7 +237,9 @@ CompiledScene compile(const SceneDescription& description, const CompileOptions&
   scene->light_data.kept = nullptr;
   scene->viewer = to_float(view.position - scene->origin);
   scene->light_sampler = make_light_sampler(LightSampler().name(), {scene->lights, scene->viewer});
-  scene->accelerator = std::make_unique<Accelerator>(scene->geometry);
+  own = {};  // the meshes of files are in the scene by now, and building takes memory
+  return_freed_memory();
+  scene->accelerator = std::make_unique<Accelerator>(scene->geometry, options.monitor);
   scene->seen = seen_by_camera(*scene, options.width, options.height);
   scene->emission_disks = EmissionDisks(bounding_sphere(info->summary.bounds, scene->origin), scene->seen);
   check_precision(*scene, info->names, options.width, options.height, diagnostics);

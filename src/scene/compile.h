@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/loading.h"
 #include "lights/light_data.h"
 #include "params/diagnostics.h"
 #include "scene/description.h"
@@ -30,6 +31,7 @@ struct CompileOptions {
   uint32_t spp = 1;           // that are planned: the more, the smaller the footprint over which textures are filtered
   TextureMemory textures = {};
   SceneFiles* files = nullptr;  // if they are kept
+  LoadMonitor monitor = {};
 };
 
 // What rays read, and beside it what people are told. Both are null where something was wrong.
@@ -38,7 +40,7 @@ struct CompiledScene {
   std::shared_ptr<const SceneInfo> info;
 };
 
-// Reports everything that is wrong with the description.
+// Reports everything that is wrong with the description. Throws LoadingStopped when the monitor says so.
 CompiledScene compile(const SceneDescription& description, const CompileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace etd

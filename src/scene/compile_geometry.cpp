@@ -41,7 +41,7 @@ class GeometryCompiler {
  public:
   GeometryCompiler(const SceneDescription& description, const Viewpoint& view, const std::vector<uint32_t>& material_of,
                    const TextureBuilder& textures, SceneFiles& files, Scene& scene, SceneInfo& info,
-                   Diagnostics& diagnostics)
+                   Diagnostics& diagnostics, const LoadMonitor& monitor)
       : description_(description),
         view_(view),
         material_of_(material_of),
@@ -50,7 +50,8 @@ class GeometryCompiler {
         mesh_files_(files.meshes),
         scene_(scene),
         info_(info),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        monitor_(monitor) {}
 
   void run() {
     check_shapes();
@@ -92,14 +93,24 @@ class GeometryCompiler {
   bool is_interface(const ShapeDesc& s) const { return material_of_[static_cast<size_t>(s.material + 1)] == kNoId; }
 
   void load() {
-    const auto load_one = [&](const ShapeDesc& s) {
-      if (!find_model(Family::kShape, s.use.model) || is_interface(s)) return;
+    const auto for_each = [&](const auto& f) {
+      const auto visit = [&](const ShapeDesc& s) {
+        if (find_model(Family::kShape, s.use.model) && !is_interface(s)) f(s);
+      };
+      for (const ShapeDesc& s : description_.shapes) visit(s);
+      for (const ObjectDesc& o : description_.objects)
+        for (const ShapeDesc& s : o.shapes) visit(s);
+    };
+    // All threads read files; what is said of them comes in the order of the shapes.
+    std::vector<const ModelUse*> uses;
+    for_each([&](const ShapeDesc& s) {
+      if (!s.mesh && loaded_.count(&s) == 0) uses.push_back(&s.use);
+    });
+    mesh_files_.read(uses, description_.folder, diagnostics_.limits(), monitor_);
+    for_each([&](const ShapeDesc& s) {
       if (loaded_.count(&s) == 0) read(s);
       if (s.use.find("alpha")) load_alpha(s);
-    };
-    for (const ShapeDesc& s : description_.shapes) load_one(s);
-    for (const ObjectDesc& o : description_.objects)
-      for (const ShapeDesc& s : o.shapes) load_one(s);
+    });
   }
 
   void read(const ShapeDesc& s) {
@@ -330,6 +341,7 @@ class GeometryCompiler {
   Scene& scene_;
   SceneInfo& info_;
   Diagnostics& diagnostics_;
+  const LoadMonitor& monitor_;
   PlacedShapes placed_;
   std::vector<Bounds3> group_bounds_;              // of placed_.groups, in their own space
   std::map<const ShapeDesc*, FloatSource> alpha_;  // of those that have holes
@@ -341,8 +353,8 @@ class GeometryCompiler {
 
 void compile_geometry(const SceneDescription& description, const Viewpoint& view,
                       const std::vector<uint32_t>& material_of, const TextureBuilder& textures, SceneFiles& files,
-                      Scene& scene, SceneInfo& info, Diagnostics& diagnostics) {
-  GeometryCompiler(description, view, material_of, textures, files, scene, info, diagnostics).run();
+                      Scene& scene, SceneInfo& info, Diagnostics& diagnostics, const LoadMonitor& monitor) {
+  GeometryCompiler(description, view, material_of, textures, files, scene, info, diagnostics, monitor).run();
 }
 
 }  // namespace etd

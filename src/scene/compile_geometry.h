@@ -18,6 +18,6 @@ namespace etd {
 // anything than of its distance from there.
 void compile_geometry(const SceneDescription& description, const Viewpoint& view,
                       const std::vector<uint32_t>& material_of, const TextureBuilder& textures, SceneFiles& files,
-                      Scene& scene, SceneInfo& info, Diagnostics& diagnostics);
+                      Scene& scene, SceneInfo& info, Diagnostics& diagnostics, const LoadMonitor& monitor);
 
 }  // namespace etd

@@ -1,8 +1,11 @@
 #include "shapes/mesh_shapes.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
+#include <atomic>
+#include <set>
 
 #include "io/missing_file.h"
 #include "io/obj.h"
@@ -174,6 +177,16 @@ std::vector<std::array<uint32_t, N>> in_faces(const std::vector<int32_t>& indice
   return faces;
 }
 
+using ReadMesh = MeshResult (*)(const std::filesystem::path& path, const Limits& limits);
+
+// Null for models that are no files.
+ReadMesh reader_of(std::string_view model) {
+  if (model == PlyMeshShape::decl().name) return read_ply;
+  if (model == OffMeshShape::decl().name) return read_off;
+  if (model == ObjMeshShape::decl().name) return read_obj_mesh;
+  return nullptr;
+}
+
 }  // namespace
 
 ShapeGeometry TriangleMeshShape::create(const ParamReader& p, const ShapeContext&) {
@@ -194,15 +207,15 @@ ShapeGeometry BilinearMeshShape::create(const ParamReader& p, const ShapeContext
 }
 
 ShapeGeometry PlyMeshShape::create(const ParamReader& p, const ShapeContext& context) {
-  return {.mesh = context.files.mesh(p, context.folder, read_ply)};
+  return {.mesh = context.files.mesh(p, context.folder)};
 }
 
 ShapeGeometry OffMeshShape::create(const ParamReader& p, const ShapeContext& context) {
-  return {.mesh = context.files.mesh(p, context.folder, read_off)};
+  return {.mesh = context.files.mesh(p, context.folder)};
 }
 
 ShapeGeometry ObjMeshShape::create(const ParamReader& p, const ShapeContext& context) {
-  return {.mesh = context.files.mesh(p, context.folder, read_obj_mesh)};
+  return {.mesh = context.files.mesh(p, context.folder)};
 }
 
 std::optional<MeshData> as_triangles(const PatchData& data) {
@@ -242,18 +255,58 @@ std::shared_ptr<const MeshData> without_unused_vertices(MeshData mesh) {
   return std::make_shared<const MeshData>(std::move(mesh));
 }
 
-std::shared_ptr<const MeshData> MeshFiles::mesh(const ParamReader& p, const std::filesystem::path& folder, Read read) {
-  const Param* file = p.given("filename");
-  if (!file) return {};
-  const std::filesystem::path path = folder / file->strings[0];
+void MeshFiles::File::read(std::string_view model, const std::filesystem::path& path, const Limits& limits) {
+  MeshResult result = reader_of(model)(path, limits);
+  if (result.mesh) mesh = without_unused_vertices(std::move(*result.mesh));
+  problems = std::move(result.problems);
+  notes = std::move(result.notes);
+  is_read = true;
+}
+
+MeshFiles::File& MeshFiles::find(const std::string& model, const std::filesystem::path& path) {
   std::error_code failed;
   const std::filesystem::path place = std::filesystem::weakly_canonical(path, failed);
-  const auto [known, is_new] = meshes_.try_emplace({p.decl().name, failed ? path.string() : place.string()});
-  if (!is_new) return known->second;
-  MeshResult result = read(path, p.diagnostics().limits());
-  report_mesh_problems(result.problems, result.notes, file->value_loc, folder, file->strings[0], p.diagnostics());
-  if (result.mesh) known->second = without_unused_vertices(std::move(*result.mesh));
-  return known->second;
+  return files_[{model, failed ? path.string() : place.string()}];
+}
+
+void MeshFiles::read(std::span<const ModelUse* const> uses, const std::filesystem::path& folder, const Limits& limits,
+                     const LoadMonitor& monitor) {
+  struct Task {
+    File* file;
+    const std::string* model;
+    std::filesystem::path path;
+  };
+  std::vector<Task> tasks;
+  std::set<const File*> known;
+  for (const ModelUse* use : uses) {
+    const Param* name = use->find("filename");
+    if (!reader_of(use->model) || !name || name->malformed || name->kind != ParamKind::kString ||
+        name->strings.size() != 1)
+      continue;
+    const std::filesystem::path path = folder / name->strings[0];
+    File& file = find(use->model, path);
+    if (!file.is_read && known.insert(&file).second) tasks.push_back({&file, &use->model, path});
+  }
+  std::atomic<size_t> begun{0};
+  const auto read_one = [&](size_t i) {
+    const size_t number = ++begun;
+    if (monitor && !monitor(fmt::format("reading meshes, {} of {}", number, tasks.size()),
+                            static_cast<double>(number - 1) / static_cast<double>(tasks.size())))
+      throw LoadingStopped();
+    tasks[i].file->read(*tasks[i].model, tasks[i].path, limits);
+  };
+  tbb::parallel_for(size_t{0}, tasks.size(), read_one, tbb::simple_partitioner());
+}
+
+std::shared_ptr<const MeshData> MeshFiles::mesh(const ParamReader& p, const std::filesystem::path& folder) {
+  const Param* name = p.given("filename");
+  if (!name) return {};
+  const std::filesystem::path path = folder / name->strings[0];
+  File& file = find(p.decl().name, path);
+  if (!file.is_read) file.read(p.decl().name, path, p.diagnostics().limits());
+  if (!std::exchange(file.is_reported, true))
+    report_mesh_problems(file.problems, file.notes, name->value_loc, folder, name->strings[0], p.diagnostics());
+  return file.mesh;
 }
 
 }  // namespace etd

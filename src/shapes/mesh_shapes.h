@@ -5,9 +5,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/loading.h"
 #include "io/mesh.h"
 #include "params/declaration.h"
 #include "shapes/shape_geometry.h"
@@ -46,13 +49,26 @@ std::shared_ptr<const MeshData> without_unused_vertices(MeshData mesh);
 // The meshes of files, each of which is read once however many shapes name it.
 class MeshFiles {
  public:
-  using Read = MeshResult (*)(const std::filesystem::path& path, const Limits& limits);
-  // The mesh of the file that "filename" names; null when it can't be read. What is wrong with a file and what is left
-  // out of it is reported for the first shape that names it.
-  std::shared_ptr<const MeshData> mesh(const ParamReader& p, const std::filesystem::path& folder, Read read);
+  // Reads the files that these shapes name, those of them that are meshes of files, on all threads. It reports nothing:
+  // mesh() does, so that messages come in the order of shapes. Throws LoadingStopped when the monitor says so.
+  void read(std::span<const ModelUse* const> uses, const std::filesystem::path& folder, const Limits& limits,
+            const LoadMonitor& monitor);
+  // The mesh of the file that "filename" names, read now or before; null when it can't be read. What is wrong with a
+  // file and what is left out of it is reported for the first shape that names it.
+  std::shared_ptr<const MeshData> mesh(const ParamReader& p, const std::filesystem::path& folder);
 
  private:
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const MeshData>> meshes_;  // by model and place
+  struct File {
+    void read(std::string_view model, const std::filesystem::path& path, const Limits& limits);
+
+    std::shared_ptr<const MeshData> mesh;
+    std::vector<std::string> problems, notes;
+    bool is_read = false, is_reported = false;
+  };
+  // The file of this model, new or known.
+  File& find(const std::string& model, const std::filesystem::path& path);
+
+  std::map<std::pair<std::string, std::string>, File> files_;  // by model and place
 };
 
 // Reports what a mesh file is wrong about at the place that names it; `name` is the file's, seen from `folder`.

@@ -105,14 +105,17 @@ struct Accelerator::Impl {
   std::atomic<int64_t> bytes{0};
   std::mutex error_mutex;  // builders report from their own threads
   std::string error;
+  const LoadMonitor& monitor;  // only while it is built
+  std::atomic<bool> stopped{false};
 
-  explicit Impl(const Geometry& g) : geometry(g), scenes(g.groups.size()) {}
+  Impl(const Geometry& g, const LoadMonitor& m) : geometry(g), scenes(g.groups.size()), monitor(m) {}
   ~Impl() {
     for (RTCScene scene : scenes)
       if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
 
+  static bool report_progress(void* self, double share);
   void open_device();
   void build();
   RTCScene new_scene(uint32_t group);
@@ -121,6 +124,7 @@ struct Accelerator::Impl {
   void attach_instance(uint32_t index);
   bool is_empty(const GeometryGroup& group) const;
   void check() const {
+    if (stopped) throw LoadingStopped();
     if (!error.empty()) throw std::runtime_error("cannot build the acceleration structure: " + error);
   }
 };
@@ -150,6 +154,13 @@ void Accelerator::Impl::open_device() {
         return true;
       },
       this);
+}
+
+// Embree takes a false for an end of the building.
+bool Accelerator::Impl::report_progress(void* self, double share) {
+  auto& impl = *static_cast<Impl*>(self);
+  if (!impl.monitor("building the acceleration structure", share)) impl.stopped = true;
+  return !impl.stopped;
 }
 
 static void attach(RTCScene scene, RTCGeometry shape, uint32_t id) {
@@ -203,6 +214,7 @@ RTCScene Accelerator::Impl::new_scene(uint32_t group) {
   check();
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  if (monitor) rtcSetSceneProgressMonitorFunction(scene, report_progress, this);
   for (uint32_t i = 0; i < g.meshes.size(); ++i) attach_mesh(scene, i, geometry.meshes[g.meshes[i]]);
   auto id = static_cast<uint32_t>(g.meshes.size());
   attach_user(scene, id, {geometry.quadrics.data() + g.quadric_begin, nullptr}, g.quadric_end - g.quadric_begin);
@@ -261,7 +273,8 @@ void Accelerator::Impl::build() {
   check();
 }
 
-Accelerator::Accelerator(const Geometry& geometry) : impl_(std::make_unique<Impl>(geometry)) {
+Accelerator::Accelerator(const Geometry& geometry, const LoadMonitor& monitor)
+    : impl_(std::make_unique<Impl>(geometry, monitor)) {
   impl_->open_device();
   impl_->build();
 }

@@ -132,7 +132,9 @@ class ParameterReader {
       if (token->kind == Token::Kind::kClose) return;
       if (is_first) param_.value_loc = token->loc;
       is_first = false;
-      if (usable) add(*token);
+      if (!usable) continue;
+      add(*token);
+      take_numbers();
     }
     diagnostics_.error(first->loc, fmt::format("the list of \"{}\" is not closed", head.text), "a \"]\" is missing");
     param_.malformed = true;
@@ -174,6 +176,14 @@ class ParameterReader {
       default:
         return add_number(token);
     }
+  }
+
+  // Behind a number of a list mostly come others that nothing is wrong with, a million of them in a mesh.
+  void take_numbers() {
+    if (param_.kind == ParamKind::kInteger)
+      tokens_.take(param_.integers);
+    else if (!param_.numbers.empty())
+      tokens_.take(param_.numbers);
   }
 
   void add_bool(const Token& token) {

@@ -134,6 +134,7 @@ std::optional<std::vector<double>> Parser::number_arguments(const Token& directi
     }
     numbers.push_back(*number);
     tokens.next();
+    tokens.take(numbers, count);
   }
   token = tokens.peek();
   if (numbers.size() == count && (!bracketed || (token && token->kind == Token::Kind::kClose))) {

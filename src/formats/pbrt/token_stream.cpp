@@ -160,7 +160,7 @@ std::optional<Token> TokenStream::next() {
   return {};
 }
 
-std::optional<Token> TokenStream::peek() {
+const std::optional<Token>& TokenStream::peek() {
   if (!peeked_) peeked_ = next();
   return peeked_;
 }

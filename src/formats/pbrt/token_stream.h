@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -29,7 +30,12 @@ class TokenStream {
   void pop_isolated();
 
   std::optional<Token> next();
-  std::optional<Token> peek();
+  const std::optional<Token>& peek();
+  // Appends the numbers that come next (Tokenizer::take); none of them while a token has been looked at already.
+  template <class T>
+  void take(std::vector<T>& values, size_t most = std::numeric_limits<size_t>::max()) {
+    if (!peeked_ && !files_.empty()) files_.back().tokenizer.take(values, most);
+  }
   void set_quiet(bool quiet) { quiet_ = quiet; }
 
   Repeats repeats;

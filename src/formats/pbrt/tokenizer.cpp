@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "io/decimal.h"
+
 namespace etd::pbrt {
 
 namespace {
@@ -93,6 +95,25 @@ std::optional<Token> Tokenizer::next(bool quiet) {
   while (at_ < text_.size() && !ends_word(text_[at_])) ++at_;
   return token(Token::Kind::kWord, begin, at_);
 }
+
+// Read returns the end of a value, or null where it cannot say.
+template <class T, class Read>
+void Tokenizer::take_with(Read read, std::vector<T>& values, size_t most) {
+  const char* const text = text_.data();
+  const char* const end = text + text_.size();
+  while (values.size() < most) {
+    skip_space();
+    T value;
+    const char* const after = read(text + at_, end, value);
+    if (!after || (after != end && !ends_word(*after))) return;
+    values.push_back(value);
+    at_ = static_cast<size_t>(after - text);
+  }
+}
+
+void Tokenizer::take(std::vector<double>& numbers, size_t most) { take_with(read_decimal, numbers, most); }
+
+void Tokenizer::take(std::vector<int32_t>& integers, size_t most) { take_with(read_whole, integers, most); }
 
 Token Tokenizer::string_token(bool quiet) {
   const size_t begin = at_++;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "params/diagnostics.h"
 
@@ -28,10 +29,16 @@ class Tokenizer {
   // The next token, none at the end of the text. A broken string is returned as far as it goes, and reported unless
   // `quiet`: what is skipped after an error is not worth a message.
   std::optional<Token> next(bool quiet);
+  // Appends the numbers that come next, up to `most` of them in all, as long as each can be read fast and nothing is
+  // wrong with it: without a token, whose place costs more than the number. They are what next() would have given.
+  void take(std::vector<double>& numbers, size_t most);
+  void take(std::vector<int32_t>& integers, size_t most);
   int32_t file() const { return file_; }
 
  private:
   void skip_space();
+  template <class T, class Read>
+  void take_with(Read read, std::vector<T>& values, size_t most);
   Token string_token(bool quiet);
   Token token(Token::Kind kind, size_t begin, size_t end) const;
   SourceLoc location(size_t begin, size_t end) const;
