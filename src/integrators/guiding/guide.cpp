@@ -100,6 +100,8 @@ GuideCell Guide::cell(std::span<const GuidePhoton> photons, DirectionTrees& tree
                       static_cast<double>(hi[(axis + 2) % 3] - lo[(axis + 2) % 3]);
   if (!(area > 0.0) || light.size() < kFewestPhotons) return c;
   c.irradiance = static_cast<float>(all / area), c.indirect = static_cast<float>(indirect / area);
+  // What a float cannot hold, in scenes of extreme scale, is not known.
+  if (!(c.irradiance > 0.0f && std::isfinite(c.irradiance))) return c;
   c.trees = &trees;
   c.root = trees.add(light);
   return c;
