@@ -156,26 +156,26 @@ static_assert(kCameraDimensions + kRoulette <= DigitBlock::kSize, "the first ver
 }  // namespace
 
 uint32_t PathIntegrator::phases(const Pass& pass) const {
-  return PixelIntegrator::phases(pass) + (guide_ && pass.index == 0 ? GuideTraining::kPhases : 0);
+  return PixelIntegrator::phases(pass) + (guide_ && !guide_->guide().built() ? GuideTraining::kPhases : 0);
 }
 
-bool PathIntegrator::in_training(const Pass& pass, uint32_t phase) const {
-  return guide_ && pass.index == 0 && phase < GuideTraining::kPhases;
+bool PathIntegrator::in_training(uint32_t phase) const {
+  return guide_ && !guide_->guide().built() && phase < GuideTraining::kPhases;
 }
 
-void PathIntegrator::begin(const Pass& pass, uint32_t phase) {
-  if (in_training(pass, phase))
+void PathIntegrator::begin(const Pass&, uint32_t phase) {
+  if (in_training(phase))
     guide_->begin(phase);
   else if (guide_)
     guide_->end();
 }
 
 size_t PathIntegrator::work_items(const Pass& pass, uint32_t phase) const {
-  return in_training(pass, phase) ? guide_->work_items(phase) : PixelIntegrator::work_items(pass, phase);
+  return in_training(phase) ? guide_->work_items(phase) : PixelIntegrator::work_items(pass, phase);
 }
 
 void PathIntegrator::render(const Pass& pass, uint32_t phase, size_t item, Sink& sink) {
-  if (in_training(pass, phase))
+  if (in_training(phase))
     guide_->run(phase, item);
   else
     PixelIntegrator::render(pass, phase, item, sink);

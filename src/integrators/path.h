@@ -51,7 +51,7 @@ class PathIntegrator : public PixelIntegrator {
   PixelSample record_pixel(int x, int y, Sampler& sampler, PathRecord& record) const override;
 
  private:
-  bool in_training(const Pass& pass, uint32_t phase) const;
+  bool in_training(uint32_t phase) const;
   template <class Recorder>
   PixelSample trace(int x, int y, Sampler& sampler, Recorder recorder) const;
 
